@@ -39,7 +39,8 @@ const PropertyTable<FlowSettings>& flow_properties() {
            "matching; for sinks that report no lateness"},
           {"timeout", &FlowSettings::timeout, 0, G_MAXUINT64,
            "Streams that are not live: time in nanoseconds until a pad without frames is reported, "
-           "as an error if it is not linked, as a warning if it is silent (0: never)"},
+           "as an error if it is not linked, as a warning if it is silent; live streams without "
+           "any frame are reported after twice this time (0: never)"},
           {"qos", &FlowSettings::qos,
            "Skip pairs whose maps would be too late at the sink; sinks with sync=false report no "
            "lateness"},

@@ -17,6 +17,7 @@ struct StreamsObservation {
   std::uint64_t progress = 0;     ///< changes whenever frames are consumed
   bool busy = false;              ///< the element matches a pair, or downstream blocks it
   bool starting = false;          ///< downstream holds the first map until other sinks have data
+  bool empty = false;             ///< in PLAYING, neither stream has had a frame nor its end
 };
 
 /// Detects a stream that is silent while frames of the other stream wait for it. It is asked at

@@ -45,6 +45,7 @@ void Watchdog::start() {
   cancel();
   detector_ = {};
   start_ = {};
+  empty_ = {};
   schedule();
 }
 
@@ -80,18 +81,21 @@ void Watchdog::check(GstClockID timer) {
   const Nanoseconds now = g_get_monotonic_time() * 1000;
   std::optional<Side> silent;
   bool stuck = false;
+  bool empty = false;
   {
     const std::lock_guard lock(mutex_);
     if (timer != timer_) return;  // stopped in the meantime
     if (timeout > 0) {
       silent = detector_.silent(streams, now, timeout);
       stuck = start_.due(streams.starting, now, timeout);
+      empty = empty_.due(streams.empty, now, 2 * timeout);
     }
     gst_clock_id_unref(timer_);
     schedule();
   }
   if (silent) functions_.report(*silent, timeout);
   if (stuck) functions_.report_start(timeout);
+  if (empty) functions_.report_empty(2 * timeout);
 }
 
 }  // namespace mtstereo::plugin

@@ -10,7 +10,8 @@
 
 namespace mtstereo::plugin {
 
-/// Reports a stream that is silent, or a start that takes, too long. The system clock calls it at
+/// Reports a stream that is silent, or a start that takes, too long, and streams without any frame,
+/// after twice that time: cameras and networks need some to begin. The system clock calls it at
 /// regular times, in a thread that all elements of the process share.
 class Watchdog {
  public:
@@ -20,6 +21,7 @@ class Watchdog {
     std::function<Nanoseconds()> timeout;  ///< 0: no report
     std::function<void(Side silent, Nanoseconds timeout)> report;
     std::function<void(Nanoseconds timeout)> report_start;  ///< the pipeline does not start
+    std::function<void(Nanoseconds time)> report_empty;     ///< no frame at all in this time
   };
 
   Watchdog(gpointer element, Functions functions)
@@ -45,6 +47,7 @@ class Watchdog {
   GstClockID timer_ = nullptr;  // nullptr: stopped
   SilenceDetector detector_;
   LongWait start_;
+  LongWait empty_;
 };
 
 }  // namespace mtstereo::plugin

@@ -112,6 +112,69 @@ TEST_F(SilentPad, IsNotReportedAfterTheElementWasStopped) {
   EXPECT_TRUE(harness->warnings(0.3).empty());
 }
 
+class SilentStreams : public SilentPad {};
+
+// Feature: a pad that is not linked or silent is reported
+TEST_F(SilentStreams, OfLiveSourcesAreReportedOnce) {
+  start(kShort, true);
+  const Report warning = harness->warning();
+  EXPECT_NE(warning.text.find("sink_left and sink_right for 0.2 s"), std::string::npos)
+      << warning.text;
+  EXPECT_NE(warning.text.find("sender"), std::string::npos) << warning.text;
+  EXPECT_NE(warning.details.find("sink_right has a format"), std::string::npos) << warning.details;
+  EXPECT_TRUE(harness->warnings(0.5).empty());
+  EXPECT_TRUE(next());
+}
+
+TEST_F(SilentStreams, AreNotReportedAfterTheFirstFrame) {
+  start(kShort, true);
+  ASSERT_TRUE(next());
+  EXPECT_TRUE(harness->warnings(0.5).empty());
+}
+
+TEST_F(SilentStreams, AreNotReportedAfterAFlush) {
+  start(kShort, true);
+  ASSERT_TRUE(next());
+  harness->flush(7);
+  EXPECT_TRUE(harness->warnings(0.5).empty());
+}
+
+TEST_F(SilentStreams, AreNotReportedAtTheEnd) {
+  for (const Side ended : {Side::kLeft, Side::kRight}) {
+    start(kShort, true);
+    harness->end(ended);
+    EXPECT_TRUE(harness->warnings(0.5).empty());
+  }
+}
+
+TEST_F(SilentStreams, AreNotReportedInPaused) {
+  start(kShort, true);
+  gst_element_set_state(harness->element(), GST_STATE_PAUSED);
+  EXPECT_TRUE(harness->warnings(0.5).empty());
+  gst_element_set_state(harness->element(), GST_STATE_PLAYING);
+  EXPECT_NE(harness->warning().text, "");
+}
+
+TEST_F(SilentStreams, AreNotReportedWithoutATimeout) {
+  start("max-disparity=16 timeout=0", true);
+  EXPECT_TRUE(harness->warnings(0.5).empty());
+}
+
+TEST_F(SilentStreams, OfFilesAreNotReported) {
+  start();
+  EXPECT_TRUE(harness->warnings(0.5).empty());
+}
+
+TEST_F(SilentStreams, ThatNoDecoderHasLinkedYetAreReportedIfASourceIsLive) {
+  for (const bool live : {true, false}) {
+    Pipeline pipeline(std::string("mtstereo ") + kShort +
+                      " ! fakesink async=false appsrc is-live=" + (live ? "true" : "false") +
+                      " ! fakesink async=false");
+    pipeline.set_state(GST_STATE_PLAYING);
+    EXPECT_EQ(warning_of(pipeline, live ? 20 : 0.5).empty(), !live);
+  }
+}
+
 // Feature: a pad that is not linked or silent is reported
 TEST(UnlinkedPad, IsAnErrorThatNamesThePad) {
   for (const std::string linked : {"sink_left", "sink_right"}) {
@@ -220,9 +283,11 @@ std::string warning_of_branches(const std::string& first, const std::string& sec
                                 GstState state = GST_STATE_PAUSED, const char* live = "") {
   const std::string source =
       std::string("videotestsrc ") + live + " ! " + raw_caps("GRAY8", kWidth, kHeight);
-  Pipeline pipeline(std::string("mtstereo name=m alignment=off ") + kShort + " ! tee name=t t. ! " +
-                    first + " t. ! " + second + " " + source + " ! m.sink_left " + source +
-                    " ! m.sink_right");
+  // Live streams whose first frame is late are reported, too.
+  const char* const properties = live[0] == '\0' ? kShort : "max-disparity=16 timeout=500000000";
+  Pipeline pipeline(std::string("mtstereo name=m alignment=off ") + properties +
+                    " ! tee name=t t. ! " + first + " t. ! " + second + " " + source +
+                    " ! m.sink_left " + source + " ! m.sink_right");
   pipeline.set_state(state);
   return warning_of(pipeline, seconds);
 }
