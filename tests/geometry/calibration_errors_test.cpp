@@ -156,8 +156,16 @@ TEST_F(BrokenFile, ThatIsHuge) {
 }
 
 TEST_F(BrokenFile, OfAnUnknownFormat) {
-  EXPECT_THAT(refused("fx: 500\nfy: 500\n"), HasSubstr("is not a calibration of a known format"));
-  EXPECT_THAT(refused("Dear reader,\nthis is a letter.\n"), HasSubstr("known format"));
+  EXPECT_THAT(
+      refused("fx: 500\nfy: 500\n"),
+      HasSubstr("is not a calibration of a known format: it has fx, fy. docs/calibration.md"));
+  EXPECT_THAT(refused("Dear reader,\nthis is a letter.\n"),
+              HasSubstr("known format: it has no entries with names. "));
+  std::string many;
+  for (int i = 0; i < 300; ++i) many += "entry" + std::to_string(i) + ": 1\n";
+  const std::string message = refused(many);
+  EXPECT_THAT(message, HasSubstr("entry4, entry5 and 294 more"));
+  EXPECT_LT(message.size(), 400u);
   EXPECT_THAT(refused("{\"fx\": 500}"), HasSubstr("known format"));
   EXPECT_THAT(refused("<page><body>404</body></page>"), HasSubstr("<page>, <opencv_storage>"));
   EXPECT_THAT(refused("<?xml version=\"1.0\"?>\n<opencv_storage></opencv_storage>"),
@@ -239,7 +247,8 @@ TEST_F(BrokenFile, WithMissingEntries) {
               HasSubstr("names no left and right camera; add the sockets"));
   EXPECT_THAT(changed("depthai.json", "\"leftCameraSocket\": 1", "\"leftCameraSocket\": 5"),
               HasSubstr("cameraData has no socket 5, the left camera"));
-  EXPECT_THAT(right("euroc_cam0.yaml", "euroc_cam1.yaml", "T_BS", "T_SB"), HasSubstr("T_BS"));
+  EXPECT_THAT(right("euroc_cam0.yaml", "euroc_cam1.yaml", "T_BS", "T_SB"),
+              HasSubstr("known format: it has sensor_type, comment, T_SB"));
 }
 
 TEST_F(BrokenFile, WithOneCameraOnly) {

@@ -263,6 +263,19 @@ void add_appended(Document& document, const std::string& text) {
   }
 }
 
+/// The first names of a map, for a message.
+std::string entries_text(const Value& root) {
+  constexpr std::size_t kMost = 6;
+  const std::vector<std::string>& names = root.names;
+  if (names.empty()) return "has no entries with names";
+  std::string text = "has";
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
+    text += (i == 0 ? " " : ", ") + printable(names[i]);
+  }
+  if (names.size() > kMost) text += " and " + std::to_string(names.size() - kMost) + " more";
+  return text;
+}
+
 /// Recognises the format of a parsed file. Rigs and parameters of ROS nodes have the calibration in
 /// a map, which may have scalars next to it.
 void find_format(Document& document) {
@@ -294,12 +307,9 @@ void find_format(Document& document) {
         "device.readCalibration().eepromToJsonFile(FILE) in Python");
   }
   document.entry().fail(
-      "is not a calibration of a known format: none of M1 (OpenCV), projection_matrix "
-      "(ROS), cam0 (Kalibr, Middlebury), T_BS (EuRoC), P0 or K_00 (KITTI), cameraData "
-      "(DepthAI), [LEFT_CAM_...] (ZED), Camera1.fx (ORB-SLAM), cam0_calib (VINS-Fusion), "
-      "value0 (Basalt), lensmodel (mrcal), cameras (OKVIS, SVO, maplab), intrinsic.u0 "
-      "(Cityscapes), camRect0 (DSEC), camera_data_ (Argoverse) is in it; of rectified views, fx, "
-      "fy, cx, cy and baseline (in meters) are enough, of others M1, D1, M2, D2, R and T");
+      "is not a calibration of a known format: it " + entries_text(document.root) +
+      ". docs/calibration.md lists the formats; of rectified views, fx, fy, cx, cy and baseline "
+      "(in meters) are enough, of others M1, D1, M2, D2, R and T");
 }
 
 /// Whether a text is a Python literal of mrcal; it may begin with comments.
