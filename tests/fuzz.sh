@@ -7,12 +7,12 @@
 #   --minutes N      time for each target (default 10)
 #   --folder FOLDER  keeps the inputs: FOLDER/TARGET/corpus, and FOLDER/TARGET/crash-* and the like for those that
 #                    fail (default ~/.local/share/mtstereo-fuzz)
-#   TARGET           alignment, calibration, caps, files, matcher, streams or text (default: all)
+#   TARGET           alignment, calibration, caps, files, matcher, media, streams or text (default: all)
 #
 # Builds into build-clang-asan/. To keep an input that failed as a test, copy it to tests/fuzz/regressions/TARGET/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-known=(alignment calibration caps files matcher streams text)
+known=(alignment calibration caps files matcher media streams text)
 
 usage() {
   sed -n -e '1,2d' -e '/^#/!q' -e 's/^# \{0,1\}//p' "$0"

@@ -33,6 +33,82 @@ def files():
     yield "calibration-eth3d", b"\5\1width=640\nndisp=32 \n"
 
 
+def jpeg(frame, data=True):
+    """A gray image of 8x8 px, whose tables have one code each."""
+
+    def segment(kind, body):
+        return bytes([0xff, kind]) + struct.pack(">H", len(body) + 2) + body
+
+    code = bytes([1] + 15 * [0] + [0])
+    return (b"\xff\xd8" + segment(0xdb, bytes([0] + 64 * [1])) + segment(frame, bytes([8, 0, 8, 0, 8, 1, 1, 0x11, 0])) +
+            segment(0xc4, b"\0" + code + b"\x10" + code) + segment(0xda, bytes([1, 1, 0, 0, 63, 0])) +
+            (b"\x3f\xff\xd9" if data else b""))
+
+
+def tiff(order, pages):
+    """Directories without pixels: width and height, of 16 and of 32 bits."""
+    places = [8 + 30 * page for page in range(pages)] + [0]
+    return (b"MM\0*" if order == ">" else b"II*\0") + struct.pack(order + "I", places[0]) + b"".join(
+        struct.pack(order + "HHHIHHHHIII", 2, 256, 3, 1, 640, 0, 257, 4, 1, 480, following) for following in places[1:])
+
+
+def chunk(name, *parts):
+    body = b"".join(parts)
+    return struct.pack(">I", len(body) + 8) + name + body
+
+
+def transport_stream(length):
+    """Three packets of one PID, the first of which starts a frame."""
+    packets = [b"G" + bytes([0x40 * (i == 0) + 1, 0, 0x10 + i]) + b"\0\0\1\xe0\0\0" + bytes(178) for i in range(3)]
+    return b"".join((bytes(4) if length == 192 else b"") + packet + bytes(16 if length == 204 else 0)
+                    for packet in packets)
+
+
+def ogg(*pages):
+    def checksum(body):
+        value = 0
+        for byte in body:
+            value ^= byte << 24
+            for _ in range(8):
+                value = (value << 1 ^ (0x04c11db7 if value & 1 << 31 else 0)) & 0xffffffff
+        return value
+
+    for number, body in enumerate(pages):
+        kind = 2 * (number == 0) + 4 * (number + 1 == len(pages))
+        head = b"OggS\0" + bytes([kind]) + struct.pack("<QII", number, 7, number)
+        tail = bytes([1, len(body)]) + body
+        yield head + struct.pack("<I", checksum(head + bytes(4) + tail)) + tail
+
+
+def media():
+    yield "png", b"\0" + png(4, 2, 8, 0, [b"\0\1\2\3", b"\4\5\6\7"])
+    yield "jpeg-size", b"\0" + jpeg(0xc0)
+    for order, name in (("<", "little"), (">", "big")):
+        for pages in (1, 2):
+            yield f"tiff-{name}-{pages}", b"\1\0" + tiff(order, pages)
+    animated = png(1, 1, 8, 0, [b"\0"])
+    yield "png-animated", b"\1\1" + animated[:33] + struct.pack(">I", 8) + b"acTL" + bytes(12) + animated[33:]
+    for name, start in (("jpeg-stream", jpeg(0xc0)), ("gif", b"GIF89a"), ("lfs", b"version https://git-lfs")):
+        yield name, b"\1\2" + start
+    table = chunk(b"stsz", struct.pack(">5I", 0, 0, 2, 5, 6))
+    moov = chunk(b"moov", chunk(b"trak", chunk(b"mdia", chunk(b"minf", chunk(b"stbl", table)))), b"lhvC")
+    yield "mp4", b"\2" + chunk(b"ftyp", b"isom") + moov + chunk(b"mdat", bytes(11))
+    yield "mp4-large", b"\2" + chunk(b"free") + struct.pack(">I4sQ", 1, b"mdat", 18) + b"ab" + bytes(4) + b"moov"
+    block = b"\xe7\x81\x05\xa3\x85\x81\0\0\x80x"
+    cluster = b"\x1f\x43\xb6\x75"
+    yield "matroska", (b"\2\x1a\x45\xdf\xa3\x80\x18\x53\x80\x67\xff" + cluster + bytes([0x80 + len(block)]) + block +
+                       cluster + bytes([0x86 + len(block)]) + b"\xbf\x84" + struct.pack("<I", zlib.crc32(block)) + block)
+    yield "avi", b"\2RIFF" + struct.pack("<I", 5) + b"AVI x\0"
+    yield "asf", b"\2" + (bytes.fromhex("3026b275") + bytes(12) + struct.pack("<Q", 26) + b"ab") * 2
+    yield "flv", b"\2FLV\1\5\0\0\0\x09\0\0\0\0" + (b"\x09\0\0\2" + bytes(7) + b"ab\0\0\0\x0d") * 2
+    yield "ogg", b"\2" + b"".join(ogg(b"first", b"second"))
+    for length in (188, 192, 204):
+        yield f"transport-{length}", b"\2" + transport_stream(length)
+    for frame in (0xc0, 0xc2):
+        yield f"jpeg-{frame:x}", b"\3" + jpeg(frame)
+    yield "jpeg-cut", b"\3" + jpeg(0xc0, data=False)
+
+
 def text():
     yield "numbers", b"\0max-disparity=64\nmax-node-width=0.5\ncensus-kernel-size=3\npixel-confidence=1e1\n"
     yield "words", b"\0preset=fast\nmode=semi-dense\ncost=gradient\nsubpixel=false\nnoise-filter=1\n"
@@ -246,7 +322,7 @@ def calibration():
 def main():
     out = pathlib.Path(sys.argv[1])
     names = []
-    for program in (alignment, calibration, caps, files, matcher, streams, text):
+    for program in (alignment, calibration, caps, files, matcher, media, streams, text):
         folder = out.parent / "seeds" / program.__name__
         folder.mkdir(parents=True, exist_ok=True)
         for name, content in program():
