@@ -2,10 +2,14 @@
 // What the programs say about a mistyped option, and which numbers they accept.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "lib/options/failure_message.hpp"
 #include "lib/options/finite_range.hpp"
 #include "lib/options/nearest_name.hpp"
+#include "lib/options/parse.hpp"
 #include "lib/options/two_numbers.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mtstereo::options::options_test {
 namespace {
@@ -62,6 +66,21 @@ std::string message_of(const std::vector<std::string>& arguments) {
     return text.str();
   }
   return "";
+}
+
+// CLI11 reads [a,b] as a list.
+TEST(Parsing, KeepsTheBracketsOfAPathThatExists) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "[1,2]");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  CLI::App app;
+  std::vector<std::string> inputs;
+  app.add_option("INPUT", inputs);
+  const std::vector<const char*> arguments = {"program", "[1,2]", "[3,4]"};
+  EXPECT_EQ(parse(app, static_cast<int>(arguments.size()), arguments.data(), [] {}), std::nullopt);
+  std::filesystem::current_path(before);
+  EXPECT_EQ(inputs, (std::vector<std::string>{"./[1,2]", "3", "4"}));
 }
 
 TEST(FailureMessage, NamesTheNearestOption) {
