@@ -14,7 +14,13 @@ const Codecs& codecs() {
 }  // namespace
 
 cv::Mat read(const std::filesystem::path& file, int flags) {
-  return codecs().read(file.string(), flags);
+  const Codecs& opened = codecs();
+  try {
+    return opened.read(file.string(), flags);
+  } catch (const cv::Exception& error) {
+    if (error.code == cv::Error::StsNoMem) throw;
+    return {};
+  }
 }
 
 cv::Mat decode(std::string_view bytes, int flags) {

@@ -9,10 +9,11 @@
 
 // Image files by OpenCV. Its library of formats is loaded by the first call, not at the start of
 // the program. All functions can be called by several threads. They throw cv::Exception where
-// OpenCV does, and UserError if the library cannot be loaded.
+// OpenCV does, but for read(), and UserError if the library cannot be loaded.
 namespace mtstereo::images {
 
-/// The image in a file; empty if the file is missing or no image. Flags are those of cv::imread().
+/// The image in a file; empty if the file is missing, no image, or refused by OpenCV, as one of
+/// more than 2^30 pixels. cv::Exception only for a lack of memory. Flags are those of cv::imread().
 cv::Mat read(const std::filesystem::path& file, int flags);
 
 /// The image in the bytes of a file; empty if they are none. Flags are those of cv::imread().

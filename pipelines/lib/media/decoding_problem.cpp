@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "lib/media/decoding_problem.hpp"
 
+#include <string>
 #include <string_view>
+
+#include "mtstereo/parameters.hpp"
 
 namespace mtstereo::media {
 namespace {
@@ -30,7 +33,10 @@ std::string without_frames(bool decodes) {
 }
 
 std::string unreadable_image(const std::filesystem::path& image) {
-  return image.string() + ": the image cannot be read: give PNG, JPEG or TIFF of 8 or 16 bits";
+  const std::string side = std::to_string(kLargestImageSide);
+  return image.string() +
+         ": the image cannot be read: give PNG, JPEG or TIFF of 8 or 16 bits and at most " + side +
+         "x" + side + " px";
 }
 
 std::string decoding_problem(GstMessage* message) {

@@ -35,20 +35,15 @@ std::vector<fs::path> list_images(const std::string& source) {
 }
 
 cv::Mat read(const fs::path& file) {
-  cv::Mat image;
-  try {
-    image = images::read(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
-    if (image.depth() == CV_16U) {
-      // Cameras of 10 or 12 bits and thermal cameras use a part of them.
-      double least = 0, most = 0;
-      cv::minMaxLoc(image, &least, &most);
-      const double scale = 255 / std::max(most - least, 1.0);
-      image.convertTo(image, CV_8U, scale, -scale * least);
-    }
-  } catch (const cv::Exception&) {
-    image.release();
-  }
+  cv::Mat image = images::read(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
   if (image.empty()) throw UserError(file.string() + ": is not an image that can be read");
+  if (image.depth() == CV_16U) {
+    // Cameras of 10 or 12 bits and thermal cameras use a part of them.
+    double least = 0, most = 0;
+    cv::minMaxLoc(image, &least, &most);
+    const double scale = 255 / std::max(most - least, 1.0);
+    image.convertTo(image, CV_8U, scale, -scale * least);
+  }
   return image;
 }
 

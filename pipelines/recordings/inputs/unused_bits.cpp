@@ -54,11 +54,7 @@ Values values_of(const std::vector<fs::path>& paths) {
   Values values{true};
   const std::size_t count = std::min(kSamples, paths.size());
   for (std::size_t i = 0; i < count; ++i) {
-    cv::Mat image;
-    try {
-      image = images::read(paths[i * paths.size() / count], cv::IMREAD_UNCHANGED);
-    } catch (const cv::Exception&) {
-    }
+    const cv::Mat image = images::read(paths[i * paths.size() / count], cv::IMREAD_UNCHANGED);
     if (image.depth() != CV_16U || image.empty()) return {};
     add_image(image.reshape(1), count, values);
   }

@@ -152,11 +152,7 @@ class ImageReader : public FrameReader {
   }
 
   DecodedFrame read_other(const std::filesystem::path& file) const {
-    try {
-      return frame_of(images::read(file, cv::IMREAD_UNCHANGED), unused_bits_);
-    } catch (const cv::Exception&) {
-      return missing();
-    }
+    return frame_of(images::read(file, cv::IMREAD_UNCHANGED), unused_bits_);
   }
 
   std::vector<std::filesystem::path> files_;

@@ -69,6 +69,12 @@ TEST(Images, AreEmptyWithoutAnImage) {
   EXPECT_TRUE(decode("no image", cv::IMREAD_UNCHANGED).empty());
 }
 
+TEST(Images, AreEmptyIfOpenCvRefusesTheirSize) {
+  const test::TemporaryFolder folder;
+  const fs::path file = written(folder, "P5\n60000 60000\n255\n");
+  EXPECT_TRUE(read(file, cv::IMREAD_UNCHANGED).empty());
+}
+
 TEST(Images, ReportWhatOpenCvRefuses) {
   EXPECT_THROW(encode(".unknown", sample()), cv::Exception);
   EXPECT_THROW(encode(".png", {}), cv::Exception);
