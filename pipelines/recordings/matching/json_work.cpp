@@ -76,13 +76,9 @@ Source read_source(const Json& json) {
 }
 
 Json index_json(const FrameIndex& index) {
-  return {{"width", index.width},
-          {"height", index.height},
-          {"period", index.period},
-          {"codec", index.codec},
-          {"damage", index.damage},
-          {"by_order", index.by_order},
-          {"times", differences(index.times)}};
+  return {{"width", index.width}, {"height", index.height},           {"period", index.period},
+          {"codec", index.codec}, {"damage", index.damage},           {"by_order", index.by_order},
+          {"bytes", index.bytes}, {"times", differences(index.times)}};
 }
 
 FrameIndex read_index(const Json& json) {
@@ -93,6 +89,7 @@ FrameIndex read_index(const Json& json) {
   index.codec = json.at("codec").get<std::string>();
   index.damage = json.at("damage").get<std::string>();
   index.by_order = json.at("by_order").get<bool>();
+  index.bytes = json.value("bytes", std::uintmax_t{0});
   index.times = sums(json.at("times"));
   return index;
 }

@@ -167,11 +167,26 @@ FrameIndex index_of_images(const Source& source, double frame_rate) {
   return index;
 }
 
+std::uintmax_t bytes_of(const Source& source) {
+  std::uintmax_t sum = 0;
+  std::vector<fs::path> files = source.images;
+  if (!source.video.empty()) files.push_back(source.video);
+  for (const fs::path& file : files) {
+    std::error_code missing;
+    const std::uintmax_t size = fs::file_size(file, missing);
+    if (!missing) sum += size;
+  }
+  return sum;
+}
+
 }  // namespace
 
 FrameIndex index_frames(const Source& source, double frame_rate) {
   if (source.empty()) throw UserError("there is no source");
-  return source.video.empty() ? index_of_images(source, frame_rate) : index_of_video(source.video);
+  FrameIndex index =
+      source.video.empty() ? index_of_images(source, frame_rate) : index_of_video(source.video);
+  index.bytes = bytes_of(source);
+  return index;
 }
 
 }  // namespace mtstereo::run

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct FrameIndex {
   /// The file states the time of some frames only, as AVI does: a frame is known by its position
   /// from the start, and not by its time after a seek.
   bool by_order = false;
+  std::uintmax_t bytes = 0;  ///< of the files of the source; 0: not known
   /// What else is to be said about the source, as sentences for the user. The JSON of a work does
   /// not have them: they are among its own remarks.
   std::vector<std::string> remarks;

@@ -37,6 +37,18 @@ class Program(ProgramCase):
         self.assertIn("other options", other.stderr)
         self.assertEqual((self.whole / "disparity.mkv").stat().st_mtime_ns, before)
 
+    def test_does_not_take_results_of_an_input_that_was_exchanged(self):
+        left = self.folder / "exchanged.mp4"
+        shutil.copy(self.left, left)
+        command = (left, self.right, "--out", self.out(), "--max-disparity", 32)
+        self.assertEqual(run(*command).returncode, 0)
+        self.assertIn("was done before", run(*command, "--resume").stdout)
+        with left.open("ab") as file:
+            file.write(b"\0\0\0\x64free" + bytes(92))  # a box without meaning
+        again = run(*command, "--resume")
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("results of another input", again.stderr)
+
     # Feature: interruptions and damaged files
     def test_continues_after_a_kill(self):
         process = self.start_and_send(signal.SIGKILL, [])

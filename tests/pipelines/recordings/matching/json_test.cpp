@@ -32,9 +32,9 @@ Work example() {
   work.recording.frame_rate = 29.97;
   work.recording.max_disparity = 128;
   work.recording.remarks = {"a remark"};
-  work.left = {{0, 1000, 2000, 3000, 4000}, 640,  480, 1000, "H.264",
-               "the file is truncated",     true, {}};
-  work.right = {work.recording.right.times, 640, 480, 1000, "PNG", "", false, {}};
+  work.left = {{0, 1000, 2000, 3000, 4000}, 640,  480,     1000, "H.264",
+               "the file is truncated",     true, 123'456, {}};
+  work.right = {work.recording.right.times, 640, 480, 1000, "PNG", "", false, 0, {}};
   work.clocks = ClockEstimate{{-7.0125, 3e-4}, false, 12.5, 0.001, 2e-5, true, "apart"};
   work.pairs = {{{0, 1}, {1, 2}, {3, 3}, {4, 4}}, 1, 1};
   work.options.products = {Product::kDepth, Product::kCloud};

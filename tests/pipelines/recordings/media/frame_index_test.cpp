@@ -320,6 +320,7 @@ TEST_F(FrameIndexTest, ImagesHaveTheirTimes) {
   EXPECT_EQ(by_rate.codec, "PNG");
   EXPECT_EQ(by_rate.width, 40);
   EXPECT_EQ(by_rate.height, 30);
+  EXPECT_EQ(by_rate.bytes, 3 * fs::file_size(source.images[0]));
   source.images.resize(1);
   EXPECT_EQ(index_frames(source, 10).period, 100'000'000) << "the rate of a single image";
   source.times = {7};
