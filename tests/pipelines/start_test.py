@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """start_test.py MODULE PROGRAM...: programs load the libraries of image formats for the first image, not at
-their start, which would take ten times as long."""
+their start, which would take ten times as long; they end with an error if what they print cannot be written."""
 import subprocess
 import sys
 import unittest
@@ -24,6 +24,13 @@ class Start(unittest.TestCase):
             self.assertIn("libopencv_core", libraries, program)
             unwanted = libraries & {"libmtstereo-images", "libopencv_imgcodecs", "libopencv_videoio", "libgdal"}
             self.assertEqual(unwanted, set(), program)
+
+    def test_programs_report_output_that_is_lost(self):
+        for program in PROGRAMS:
+            with open("/dev/full", "wb") as full:
+                done = subprocess.run([program, "--help"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+            self.assertNotEqual(done.returncode, 0, program)
+            self.assertIn("standard output: cannot be written", done.stderr, program)
 
     def test_the_module_loads_them(self):
         self.assertIn("libopencv_imgcodecs", loaded_by(MODULE))

@@ -11,6 +11,7 @@
 #include <new>
 #include <opencv2/core/utils/logger.hpp>
 
+#include "lib/outputs/standard_output.hpp"
 #include "programs/calibrate/page.hpp"
 #include "programs/calibrate/session.hpp"
 
@@ -51,7 +52,9 @@ int main(int argc, char** argv) {
   try {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     const ParsedOptions parsed = parse_options(argc, argv);
-    return parsed.options ? run(*parsed.options) : parsed.exit_status;
+    const int status = parsed.options ? run(*parsed.options) : parsed.exit_status;
+    mtstereo::outputs::finish_standard_output();
+    return status;
   } catch (const std::bad_alloc&) {
     std::cerr << "mtcalibrate: out of memory\n";
   } catch (const std::exception& error) {

@@ -12,6 +12,7 @@
 
 #include "lib/outputs/folder_lock.hpp"
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/standard_output.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/run/check_command.hpp"
 #include "programs/run/cluster_commands.hpp"
@@ -120,7 +121,9 @@ int main(int argc, char** argv) {
   try {
     mtstereo::run::use_own_plugin();
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    return mtstereo::run::run(argc, argv);
+    const int status = mtstereo::run::run(argc, argv);
+    mtstereo::outputs::finish_standard_output();
+    return status;
   } catch (const std::exception& error) {
     std::cerr << "mtstereo-run: " << error.what() << '\n';
   } catch (...) {

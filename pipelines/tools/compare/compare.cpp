@@ -16,6 +16,7 @@
 
 #include "lib/images/images.hpp"
 #include "lib/options/parse.hpp"
+#include "lib/outputs/standard_output.hpp"
 #include "tools/compare/compare_depth.hpp"
 #include "tools/compare/frame_files.hpp"
 #include "tools/eval/ground_truth.hpp"
@@ -174,7 +175,9 @@ int main(int argc, char** argv) {
     Options options;
     define(app, options);
     const auto ended = mtstereo::options::parse(app, argc, argv, [] {});
-    return ended ? *ended : run(options);
+    const int status = ended ? *ended : run(options);
+    mtstereo::outputs::finish_standard_output();
+    return status;
   } catch (const std::exception& error) {
     std::cerr << "mtstereo-compare: " << error.what() << '\n';
   } catch (...) {

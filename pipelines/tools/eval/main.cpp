@@ -10,6 +10,7 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <utility>
 
+#include "lib/outputs/standard_output.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/options.hpp"
 #include "tools/eval/outputs.hpp"
@@ -215,7 +216,9 @@ int main(int argc, char** argv) {
   try {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     const ParsedOptions parsed = parse_options(argc, argv);
-    return parsed.options ? run(*parsed.options) : parsed.exit_status;
+    const int status = parsed.options ? run(*parsed.options) : parsed.exit_status;
+    mtstereo::outputs::finish_standard_output();
+    return status;
   } catch (const std::exception& error) {
     std::cerr << "mtstereo-eval: " << error.what() << '\n';
     return kWrongUsage;

@@ -16,6 +16,7 @@
 #include "lib/images/images.hpp"
 #include "lib/options/parse.hpp"
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/standard_output.hpp"
 #include "mtstereo/geometry/calibration.hpp"
 #include "mtstereo/geometry/rectification.hpp"
 #include "options.hpp"
@@ -182,10 +183,13 @@ int main(int argc, char** argv) {
     CLI::App app("Renders a stereo clip with exact ground truth.", "mtstereo-render");
     Options options;
     define_options(app, options);
-    if (const auto ended = options::parse(app, argc, argv, [] {})) return *ended;
-    complete_options(app, options);
-    Clip(options).write();
-    return 0;
+    const auto ended = options::parse(app, argc, argv, [] {});
+    if (!ended) {
+      complete_options(app, options);
+      Clip(options).write();
+    }
+    outputs::finish_standard_output();
+    return ended.value_or(0);
   } catch (const std::invalid_argument& error) {
     std::cerr << "mtstereo-render: " << outputs::printable(error.what()) << '\n';
     return 2;
