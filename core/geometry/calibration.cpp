@@ -153,16 +153,29 @@ void scale_camera(CameraCalibration& camera, double x, double y) {
   camera.center_y = (camera.center_y + 0.5) * y - 0.5;
 }
 
-Error aspect_error(const CameraCalibration& camera, int width, int height) {
-  return {ErrorCode::kInvalidCalibration,
-          "the calibration is for images of " + image_size_text(camera.width, camera.height) +
-              ", the video has " + image_size_text(width, height) +
-              ": the aspect ratios differ, so the camera crops; calibrate with this size"};
-}
-
 bool fits(const CameraCalibration& camera, int width, int height) {
   const double scale = static_cast<double>(width) / camera.width;
   return std::abs(camera.height * scale - height) <= 1;
+}
+
+/// What a video has whose aspect ratio is half or twice that of the calibration, with remedies; ""
+/// for another one.
+std::string halved_views(const CameraCalibration& camera, int width, int height) {
+  const bool wide = fits(camera, width, 2 * height);
+  if (!wide && !fits(camera, 2 * width, height)) return "";
+  const std::string whole =
+      wide ? image_size_text(width, 2 * height) : image_size_text(2 * width, height);
+  return std::string(": it has both views ") + (wide ? "side by side" : "one above the other") +
+         " (split it first, by mtsplit), or views that are squeezed to half of their " +
+         (wide ? "height" : "width") + " (scale each to " + whole + "), or";
+}
+
+Error aspect_error(const CameraCalibration& camera, int width, int height) {
+  const std::string halved = halved_views(camera, width, height);
+  return {ErrorCode::kInvalidCalibration,
+          "the calibration is for images of " + image_size_text(camera.width, camera.height) +
+              ", the video has " + image_size_text(width, height) + ": the aspect ratios differ" +
+              (halved.empty() ? ", so" : halved) + " the camera crops; calibrate with this size"};
 }
 
 void scale_rectification(Rectification& rectification, const CameraCalibration& old_left, int width,

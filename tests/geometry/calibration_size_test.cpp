@@ -58,6 +58,31 @@ TEST(DepthAiSize, OfAnotherAspectRatioIsRefused) {
   EXPECT_THAT(scaled.error().message, HasSubstr("the aspect ratios differ"));
 }
 
+std::string refused_size(int width, int height) {
+  const Result<StereoCalibration> calibration = read_calibration(stored("camchain.yaml"), 0, 0);
+  EXPECT_TRUE(calibration.ok());
+  const CameraCalibration& left = calibration->left;
+  const Result<StereoCalibration> scaled =
+      scale_calibration(*calibration, left.width * width / 4, left.height * height / 4);
+  return scaled.ok() ? "" : scaled.error().message;
+}
+
+TEST(Size, OfAnotherAspectRatioIsThatOfACrop) {
+  EXPECT_THAT(refused_size(4, 3), HasSubstr("differ, so the camera crops; calibrate with"));
+}
+
+TEST(Size, OfHalfOrTwiceTheAspectRatioMayBeThatOfBothViews) {
+  for (const auto& [width, height] : {std::pair(8, 4), {4, 2}}) {
+    EXPECT_THAT(refused_size(width, height),
+                AllOf(HasSubstr("both views side by side (split it first"),
+                      HasSubstr("squeezed to half of their height"), HasSubstr("camera crops")));
+  }
+  for (const auto& [width, height] : {std::pair(4, 8), {2, 4}}) {
+    EXPECT_THAT(refused_size(width, height), AllOf(HasSubstr("both views one above the other"),
+                                                   HasSubstr("squeezed to half of their width")));
+  }
+}
+
 TEST(ZedSize, OfBothViewsSideBySideIsNamed) {
   EXPECT_THAT(read_refused(stored("SN12345.conf"), 2560, 720),
               AllOf(HasSubstr("no calibration for video of 2560x720, which has both views side by"),

@@ -88,8 +88,9 @@ bool Session::enough(const PairSource& source) const {
 
 void Session::check_sizes(const ImagePair& images) {
   if (images.left.size() != images.right.size()) {
-    throw UserError("the left image is " + size_text(images.left.size()) + ", the right one " +
-                    size_text(images.right.size()) + ": both must have the same size");
+    throw UserError(images.name + ": the left image is " + size_text(images.left.size()) +
+                    ", the right one " + size_text(images.right.size()) +
+                    ": both must have the same size");
   }
   if (!choice_) {
     left_size_ = images.left.size();

@@ -244,6 +244,17 @@ class Refusal(Program):
         self.refuse(r"source \(gray-.*\): .*-pix_fmt gray16le", "--left", "gray-left.mkv", "--right",
                     "gray-right.mkv", "--timeout", "2")
 
+    def test_a_pair_of_two_sizes_is_named(self):
+        images = FOLDER / "two-sizes"
+        shutil.copytree(FOLDER / "stills/right", images)
+        header = b"P5\n64 48\n255\n"
+        for image in sorted(images.iterdir())[1:2]:
+            image.unlink()
+            image.with_suffix(".pgm").write_bytes(header + bytes(64 * 48))
+        done = self.run_program("--left", "stills/left", "--right", images, "--out", "sizes")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "001.png: the left image is .* the right one 64x48")
+
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_videos_that_players_turn(self):
         subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", "testsrc=size=64x48:duration=0.2",
