@@ -52,6 +52,11 @@ def tiff(order, pages):
         struct.pack(order + "HHHIHHHHIII", 2, 256, 3, 1, 640, 0, 257, 4, 1, 480, following) for following in places[1:])
 
 
+def big_tiff(order):
+    return (b"MM\0+\0\x08\0\0" if order == ">" else b"II+\0\x08\0\0\0") + struct.pack(
+        order + "QQHHQHHIHHQQQ", 16, 2, 256, 3, 1, 640, 0, 0, 274, 4, 1, 8, 0)
+
+
 def chunk(name, *parts):
     body = b"".join(parts)
     return struct.pack(">I", len(body) + 8) + name + body
@@ -86,6 +91,7 @@ def media():
     for order, name in (("<", "little"), (">", "big")):
         for pages in (1, 2):
             yield f"tiff-{name}-{pages}", b"\1\0" + tiff(order, pages)
+        yield f"tiff-{name}-8-bytes", b"\1\0" + big_tiff(order)
     animated = png(1, 1, 8, 0, [b"\0"])
     yield "png-animated", b"\1\1" + animated[:33] + struct.pack(">I", 8) + b"acTL" + bytes(12) + animated[33:]
     for name, start in (("jpeg-stream", jpeg(0xc0)), ("gif", b"GIF89a"), ("lfs", b"version https://git-lfs")):

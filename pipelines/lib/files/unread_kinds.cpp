@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <fstream>
 #include <string_view>
-#include <utility>
 
 #include "lib/files/file_names.hpp"
+#include "lib/files/tiff_pages.hpp"
 #include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::files {
@@ -87,58 +86,21 @@ bool begins_with(const fs::path& file, std::string_view bytes) {
   return head == bytes;
 }
 
-// The bytes of a TIFF file as numbers.
-class TiffNumbers {
- public:
-  explicit TiffNumbers(const fs::path& file) : stream_(file, std::ios::binary) {
-    std::string head(4, '\0');
-    stream_.read(head.data(), 4);
-    big_ = head == std::string_view("MM\0*", 4);
-    is_tiff_ = big_ || head == std::string_view("II*\0", 4);
+// Why a TIFF file is not read; "" if it is, and for another file.
+std::string tiff_problem(const fs::path& file) {
+  const std::vector<TiffPage> pages = first_tiff_pages(file);
+  if (pages.empty()) return {};
+  const TiffPage& first = pages.front();
+  if (first.orientation > 1 && first.orientation <= 8) {
+    return "is turned or mirrored when it is shown, as its orientation tag states: store the "
+           "images of both views turned (mogrify -auto-orient FILES)";
   }
-
-  bool is_tiff() const { return is_tiff_; }
-  void go_to(std::uint32_t place) { stream_.seekg(place); }
-
-  std::uint32_t next(int bytes) {
-    std::uint32_t number = 0;
-    for (int i = 0; i < bytes; ++i) {
-      const auto byte = static_cast<std::uint32_t>(static_cast<unsigned char>(stream_.get()));
-      number |= byte << 8 * (big_ ? bytes - 1 - i : i);
-    }
-    return stream_ ? number : 0;
-  }
-
- private:
-  std::ifstream stream_;
-  bool big_ = false, is_tiff_ = false;
-};
-
-// Width and height of the image of a directory, whose end has the place of the next one.
-std::pair<std::uint32_t, std::uint32_t> next_tiff_size(TiffNumbers& numbers) {
-  constexpr std::uint32_t kWidth = 256, kHeight = 257, kShort = 3;
-  std::pair<std::uint32_t, std::uint32_t> size;
-  for (std::uint32_t entries = numbers.next(2); entries > 0; --entries) {
-    const std::uint32_t tag = numbers.next(2), type = numbers.next(2);
-    numbers.next(4);  // how many values
-    const std::uint32_t value = numbers.next(type == kShort ? 2 : 4);
-    if (type == kShort) numbers.next(2);
-    if (tag == kWidth) size.first = value;
-    if (tag == kHeight) size.second = value;
-  }
-  return size;
-}
-
-// A TIFF file with two images of the same size: the second one is no preview.
-bool has_pages(const fs::path& file) {
-  TiffNumbers numbers(file);
-  if (!numbers.is_tiff()) return false;
-  numbers.go_to(numbers.next(4));
-  const auto first = next_tiff_size(numbers);
-  const std::uint32_t second = numbers.next(4);
-  if (second == 0) return false;
-  numbers.go_to(second);
-  return first == next_tiff_size(numbers) && first.first > 0;
+  // A second image of another size is a preview.
+  const bool equal = pages.size() > 1 && pages[1].width == first.width &&
+                     pages[1].height == first.height && first.width > 0;
+  return equal ? "has several images, of which only the first is read: write each one to a file "
+                 "(magick FILE view-%06d.png)"
+               : "";
 }
 
 }  // namespace
@@ -159,10 +121,7 @@ std::string unread_kind(const fs::path& file) {
            "PNG images (ffmpeg -i FILE view.mkv)";
   }
   if (const Kind* const kind = kind_of(file)) return kind->what;
-  if (has_pages(file)) {
-    return "has several images, of which only the first is read: write each one to a file (magick "
-           "FILE view-%06d.png)";
-  }
+  if (std::string problem = tiff_problem(file); !problem.empty()) return problem;
   if (!is_image(file) && begins_with(file, "\xff\xd8\xff")) {
     return "has JPEG images without times: state their rate (ffmpeg -framerate 30 -f mjpeg -i FILE "
            "-c copy view.mkv), or name it FILE.jpg if it is one image";

@@ -91,6 +91,39 @@ TEST_F(UnreadKinds, ArePagesOfTiff) {
   }
 }
 
+// Such as files above 4 GB: places have 8 bytes, and so do the values.
+TEST_F(UnreadKinds, ArePagesOfBigTiff) {
+  const auto page = [](char side, char next) {
+    std::string text("\2\0\0\0\0\0\0\0", 8);
+    for (const char tag : {'\0', '\1'}) {
+      text += tag + std::string("\1\3\0\1\0\0\0\0\0\0\0", 11) + side + std::string(7, '\0');
+    }
+    return text + next + std::string(7, '\0');
+  };
+  constexpr char kFirst = 16, kSecond = kFirst + 8 + 2 * 20 + 8;
+  const auto tiff = [&](char second_side, char next) {
+    const fs::path file = folder_ / "a.tif";
+    std::ofstream(file) << std::string("II+\0\10\0\0\0", 8) << kFirst << std::string(7, '\0')
+                        << page(9, next) << page(second_side, 0);
+    return unread_kind(file);
+  };
+  EXPECT_THAT(tiff(9, kSecond), HasSubstr("several images, of which only the first"));
+  EXPECT_THAT(tiff(3, kSecond), IsEmpty()) << "a preview";
+  EXPECT_THAT(tiff(9, 0), IsEmpty());
+}
+
+// OpenCV turns them, programs that read the pixels only do not.
+TEST_F(UnreadKinds, AreTiffThatAreTurned) {
+  for (char orientation = 0; orientation <= 9; ++orientation) {
+    const fs::path file = folder_ / "a.tif";
+    std::ofstream(file) << std::string("II*\0\10\0\0\0\1\0\22\1\3\0\1\0\0\0", 18) << orientation
+                        << std::string(7, '\0');
+    const bool turned = orientation > 1 && orientation < 9;
+    EXPECT_EQ(unread_kind(file).find("orientation tag") != std::string::npos, turned)
+        << static_cast<int>(orientation);
+  }
+}
+
 TEST_F(UnreadKinds, AreNoOthers) {
   for (const char* name : {"a.png", "a.mkv", "a.jp2", "a", ".a", "a.ba", "a.", "a. .heic .x"}) {
     EXPECT_THAT(unread_kind(write(name)), IsEmpty()) << name;
