@@ -2,6 +2,7 @@
 #include "lib/images/images.hpp"
 
 #include "lib/images/open_module.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::images {
 namespace {
@@ -21,6 +22,17 @@ cv::Mat read(const std::filesystem::path& file, int flags) {
     if (error.code == cv::Error::StsNoMem) throw;
     return {};
   }
+}
+
+void refuse_turned(const std::filesystem::path& image) {
+  const cv::Mat shown = read(image, cv::IMREAD_GRAYSCALE);
+  const cv::Mat stored = read(image, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+  const bool equal = shown.size() == stored.size() &&
+                     (shown.empty() || cv::norm(shown, stored, cv::NORM_INF) == 0);
+  if (equal) return;
+  throw UserError(image.string() +
+                  ": programs that show this image turn it, as its EXIF data state: store the "
+                  "images of both views turned (mogrify -auto-orient FILES)");
 }
 
 cv::Mat decode(std::string_view bytes, int flags) {

@@ -16,6 +16,10 @@ namespace mtstereo::images {
 /// more than 2^30 pixels. cv::Exception only for a lack of memory. Flags are those of cv::imread().
 cv::Mat read(const std::filesystem::path& file, int flags);
 
+/// Throws UserError for an image that programs turn when they show it, as its EXIF data state:
+/// decoders of frames do not.
+void refuse_turned(const std::filesystem::path& image);
+
 /// The image in the bytes of a file; empty if they are none. Flags are those of cv::imread().
 cv::Mat decode(std::string_view bytes, int flags);
 

@@ -47,6 +47,12 @@ cv::Mat read(const fs::path& file) {
   return image;
 }
 
+// The first image of a list, which stands for the others.
+void check_first(const fs::path& image) {
+  files::refuse_unread(image);
+  images::refuse_turned(image);
+}
+
 // The images whose number the others do not have; none if an image has no number.
 std::vector<fs::path> without_partner(const std::vector<fs::path>& images,
                                       const std::vector<fs::path>& others) {
@@ -127,7 +133,9 @@ class ImageSource : public PairSource {
     if (index_ == left_.size()) return SourceState::kEnd;
     pair.time = static_cast<double>(index_);
     pair.name = left_[index_].filename().string();
+    if (index_ == 0) check_first(left_[0]);
     if (arrangement_ == Arrangement::kTwoSources) {
+      if (index_ == 0) check_first(right_[0]);
       pair.left = read(left_[index_]);
       pair.right = read(right_[index_]);
     } else {

@@ -64,16 +64,6 @@ std::vector<cv::Mat> frames_of_video(const fs::path& file, int count) {
   return frames;
 }
 
-// Whether programs that show an image turn it, as its EXIF data state: decoders of frames do not.
-void refuse_turned(const fs::path& image) {
-  const cv::Mat shown = images::read(image, cv::IMREAD_GRAYSCALE);
-  const cv::Mat stored = images::read(image, kStored);
-  if (shown.size() == stored.size() && cv::norm(shown, stored, cv::NORM_INF) == 0) return;
-  throw UserError(image.string() +
-                  ": programs that show this image turn it, as its EXIF data state: store the "
-                  "images of both views turned (mogrify -auto-orient FILES)");
-}
-
 cv::Mat gray_image(const fs::path& image, int unused_bits) {
   if (unused_bits == 0) return images::read(image, kStored);
   const cv::Mat read = images::read(image, kStored | cv::IMREAD_ANYDEPTH);
@@ -91,7 +81,7 @@ std::vector<cv::Mat> frames_of_images(const Source& source, int count) {
     const fs::path& image = images[i * images.size() / wanted];
     cv::Mat frame = gray_image(image, source.unused_bits);
     if (frame.empty()) throw UserError(media::unreadable_image(image));
-    if (i == 0) refuse_turned(image);
+    if (i == 0) images::refuse_turned(image);
     frames.push_back(std::move(frame));
   }
   return frames;

@@ -7,9 +7,11 @@
 #include <initializer_list>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <vector>
 
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/source.hpp"
+#include "support/exif.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mtstereo::calibrate::image_source_test {
@@ -87,6 +89,27 @@ TEST(ImageSource, TakesTimesThatDifferByASecondNowAndThen) {
   write_numbered(options.left, {92610, 92615, 92619, 92630});
   write_numbered(options.right, {92610, 92616, 92619, 92630});
   EXPECT_NO_THROW(open_source(options));
+}
+
+TEST(ImageSource, RefusesImagesThatProgramsTurn) {
+  const test::TemporaryFolder folder;
+  SourceOptions options;
+  options.left = options.right = folder / "a.jpg";
+  std::vector<unsigned char> coded;
+  const cv::Mat image = (cv::Mat_<std::uint8_t>(1, 3) << 0, 20, 90);
+  cv::imencode(".jpg", image, coded);
+  for (const char orientation : {'\1', '\3'}) {
+    std::ofstream(options.left) << test::with_orientation({coded.begin(), coded.end()},
+                                                          orientation);
+    ImagePair pair;
+    const auto source = open_source(options);
+    if (orientation == '\1') {
+      EXPECT_EQ(source->next(pair), SourceState::kPair);
+    } else {
+      EXPECT_THAT([&] { source->next(pair); },
+                  ::testing::ThrowsMessage<UserError>(::testing::HasSubstr("-auto-orient")));
+    }
+  }
 }
 
 TEST(ImageSource, NamesTheRemedyForAGif) {

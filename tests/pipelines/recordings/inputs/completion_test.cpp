@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "recordings/support/recordings_folder.hpp"
+#include "support/exif.hpp"
 
 namespace mtstereo::run::completion_test {
 namespace {
@@ -66,13 +67,7 @@ TEST_F(Recordings, RefusesVideoThatPlayersTurn) {
 void write_turned(const fs::path& file, const cv::Mat& image, char orientation) {
   std::vector<unsigned char> coded;
   cv::imencode(".jpg", image, coded);
-  std::string exif(
-      "\xff\xe1\0\x22"
-      "Exif\0\0MM\0\x2a\0\0\0\x8\0\x1\x1\x12\0\x3\0\0\0\x1\0?\0\0\0\0\0\0",
-      36);
-  exif[exif.find('?')] = orientation;
-  std::string bytes(coded.begin(), coded.end());
-  write_text(file, bytes.insert(2, exif));
+  write_text(file, test::with_orientation({coded.begin(), coded.end()}, orientation));
 }
 
 TEST_F(Recordings, RefusesImagesThatProgramsTurn) {
