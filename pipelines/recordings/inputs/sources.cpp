@@ -72,6 +72,11 @@ bool are_same(const Source& left, const Source& right) {
 
 // Fails for an input that is not there.
 [[noreturn]] void fail_as_missing(const std::string& input, const std::string& what) {
+  if (input.empty()) {
+    throw UserError(
+        "an input has an empty name, such as that of a variable that is not set: give files or "
+        "folders");
+  }
   const auto is_input = [](const std::string& text) {
     std::error_code error;
     return files::is_pattern(text) || fs::exists(text, error);

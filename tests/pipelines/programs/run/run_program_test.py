@@ -37,6 +37,11 @@ class Program(ProgramCase):
         self.assertIn("other options", other.stderr)
         self.assertEqual((self.whole / "disparity.mkv").stat().st_mtime_ns, before)
 
+    def test_names_an_empty_input(self):
+        done = run("", self.right, "--out", self.out())
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("an input has an empty name", done.stderr)
+
     def test_does_not_take_results_of_an_input_that_was_exchanged(self):
         left = self.folder / "exchanged.mp4"
         shutil.copy(self.left, left)
