@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <bit>
+#include <filesystem>
+#include <fstream>
 #include <span>
+#include <string_view>
 
 #include "base/guard.hpp"
 #include "geometry/new_file.hpp"
@@ -14,10 +17,15 @@ constexpr std::size_t kPointsPerBlock = 4096;
 constexpr std::size_t kPlyPoint = 3 * 4 + 4;  // [bytes]
 constexpr std::size_t kPcdPoint = 3 * 4 + 5;  // [bytes]
 
+/// Stands in the header of each file: what has it may be replaced.
+constexpr std::string_view kWritten = "written by mtstereo";
+
 std::string ply_header(std::size_t points) {
   return "ply\n"
          "format binary_little_endian 1.0\n"
-         "comment written by mtstereo\n"
+         "comment " +
+         std::string(kWritten) +
+         "\n"
          "comment unit: meter\n"
          "comment axes of the left camera: x right, y down, z forward\n"
          "element vertex " +
@@ -36,7 +44,9 @@ std::string ply_header(std::size_t points) {
 std::string pcd_header(std::size_t points) {
   const std::string count = std::to_string(points);
   return "# .PCD v0.7 - Point Cloud Data file format\n"
-         "# written by mtstereo\n"
+         "# " +
+         std::string(kWritten) +
+         "\n"
          "# unit: meter\n"
          "# axes of the left camera: x right, y down, z forward\n"
          "VERSION 0.7\n"
@@ -84,6 +94,17 @@ std::uint8_t* put_pcd(std::uint8_t* to, const CloudPoint& point) {
   return to;
 }
 
+/// Whether a file is there that something else wrote.
+bool is_foreign(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::error_code unknown;
+  if (!file.is_open()) return std::filesystem::exists(path, unknown);
+  std::string begin(128, '\0');
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(file.gcount()));
+  return !begin.empty() && begin.find(kWritten) == std::string::npos;
+}
+
 Status write_points(NewFile& file, std::span<const CloudPoint> points, CloudFormat format) {
   const bool ply = format == CloudFormat::kPly;
   std::vector<std::uint8_t> block(kPointsPerBlock * (ply ? kPlyPoint : kPcdPoint));
@@ -105,6 +126,10 @@ Status write_cloud(const std::vector<CloudPoint>& points, CloudFormat format,
   return guarded([&]() -> Status {
     NewFile file(path);
     if (Status status = file.open(); !status) return status;
+    if (is_foreign(path)) {
+      return Error{ErrorCode::kSystem, path + " cannot be replaced: mtstereo did not write it; " +
+                                           "move it away, or write elsewhere"};
+    }
     const std::string header =
         format == CloudFormat::kPly ? ply_header(points.size()) : pcd_header(points.size());
     if (Status status = file.write(header.data(), header.size()); !status) return status;

@@ -97,12 +97,27 @@ TEST(CloudFile, OfNoPointsIsComplete) {
   }
 }
 
-TEST(CloudFile, ReplacesAnOlderFileAndLeavesNoOther) {
+TEST(CloudFile, ReplacesItsOwnFilesAndLeavesNoOther) {
   const TemporaryFolder folder;
-  write_text(folder / "cloud.ply", "older");
-  ASSERT_TRUE(write_cloud(kTwo, CloudFormat::kPly, folder / "cloud.ply").ok());
+  write_text(folder / "cloud.ply", "");
+  for (const CloudFormat format : {CloudFormat::kPly, CloudFormat::kPcd, CloudFormat::kPly}) {
+    ASSERT_TRUE(write_cloud(kTwo, format, folder / "cloud.ply").ok());
+  }
   EXPECT_EQ(read_text(folder / "cloud.ply").substr(0, 4), "ply\n");
   EXPECT_EQ(files_in(folder), "cloud.ply ");
+}
+
+TEST(CloudFile, ReplacesNoFileOfOthers) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "scan.ply";
+  for (const std::string text : {"x", "ply\nformat ascii 1.0\ncomment by another program\n"}) {
+    write_text(path, text);
+    const std::string message = error_of(path);
+    EXPECT_NE(message.find(path), std::string::npos) << message;
+    EXPECT_NE(message.find("did not write it"), std::string::npos) << message;
+    EXPECT_EQ(read_text(path), text);
+    EXPECT_EQ(files_in(folder), "scan.ply ");
+  }
 }
 
 TEST(CloudFile, NamesAFolderThatDoesNotExist) {
@@ -147,7 +162,8 @@ class SizeLimit {
 TEST(CloudFile, KeepsTheOlderFileIfThereIsNoSpace) {
   const TemporaryFolder folder;
   const std::string path = folder / "cloud.ply";
-  write_text(path, "older");
+  ASSERT_TRUE(write_cloud(kTwo, CloudFormat::kPly, path).ok());
+  const std::string older = read_text(path);
   const std::vector<CloudPoint> many(20000);
   for (const rlim_t bytes : {0, 100, 1000, 300000}) {
     std::string message;
@@ -157,7 +173,7 @@ TEST(CloudFile, KeepsTheOlderFileIfThereIsNoSpace) {
     }
     EXPECT_NE(message.find(path), std::string::npos) << message;
     EXPECT_NE(message.find("File too large"), std::string::npos) << message;
-    EXPECT_EQ(read_text(path), "older");
+    EXPECT_EQ(read_text(path), older);
     EXPECT_EQ(files_in(folder), "cloud.ply ") << "the part must be removed";
   }
 }

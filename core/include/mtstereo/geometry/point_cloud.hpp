@@ -60,8 +60,8 @@ enum class CloudFormat {
 
 /// Writes points to a file. The header states the unit and the axes. The file is written aside and
 /// renamed, so that a reader never finds half of it and an existing file is kept if writing fails.
-/// Fails with kSystem, and a message that names the file and the reason. Something that exists
-/// under the name and is not a regular file is not replaced.
+/// Fails with kSystem, and a message that names the file and the reason. Of what exists under the
+/// name, only an empty file and one of this function are replaced.
 MTSTEREO_API Status write_cloud(const std::vector<CloudPoint>& points, CloudFormat format,
                                 const std::string& path) noexcept;
 
