@@ -40,6 +40,7 @@ void Pyramid::resize(const Settings& settings, const FrameSize& size, ReusedMemo
   windows.resize(reduced.width, reduced.height, cost_lanes(settings.disparities));
   agreement.resize(votes.columns, votes.rows);
   const ImageSize half = {half_of(reduced.width), half_of(reduced.height)};
+  balance.resize(half.width, half.height);
   reused.start_group();  // support_guide() only
   support.resize(half.width, half.height, &reused);
   confidence.resize(half.width, half.height);
@@ -80,8 +81,8 @@ void match_reduced(const StepContext& step, const Views& views, Pyramid& pyramid
     PyramidLevel& level = pyramid.levels[i];
     PathMatchingOptions options = step.settings.path_matching(i + 1);
     options.smoothness.edge = views.edge;
-    const PathMatchingInput input = {level.views[0].view(), level.census[0], level.census[1],
-                                     expected, all};
+    const PathMatchingInput input = {
+        level.views[0].view(), {level.census[0], level.census[1]}, expected, all};
     WindowVotes* votes = i == 0 ? &pyramid.votes : nullptr;
     match(step.bands, input, options, pyramid.scratch, level.disparity, level.ratio, votes);
     expected = &level.disparity;
@@ -94,11 +95,30 @@ void choose_search_windows(const StepContext&, Pyramid& pyramid) {
   share_agreement(pyramid.votes, pyramid.agreement);
 }
 
+void balance_grays(const StepContext& step, Pyramid& pyramid) {
+  const PyramidLevel& level = pyramid.levels[0];
+  GrayBalance& balance = pyramid.balance;
+  // Few rows: a part of a millisecond for a view of many megapixels.
+  balance.mapping =
+      find_gray_mapping(level.views[0].view(), level.views[1].view(), level.disparity);
+  const int rows = balance.own.height();
+  step.bands.blocks(rows, 1, [&](int row0, int row1, int) {
+    measure_differences(level.views[0].view(), level.views[1].view(), level.disparity, row0, row1,
+                        balance);
+  });
+  const std::int16_t common = common_difference(balance);
+  step.bands.blocks(rows, 1,
+                    [&](int row0, int row1, int) { balance_tiles(common, row0, row1, balance); });
+}
+
 void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyramid, Maps& maps) {
   PathMatchingOptions options = step.settings.path_matching(0);
   options.smoothness.edge = views.edge;
-  const PathMatchingInput input = {views.matched[0], views.census[0], views.census[1],
-                                   &pyramid.levels[0].disparity, pyramid.windows};
+  const GrayPair gray = {views.matched[0], views.matched[1], pyramid.balance};
+  const PathMatchingInput input = {views.matched[0],
+                                   {views.census[0], views.census[1], &gray},
+                                   &pyramid.levels[0].disparity,
+                                   pyramid.windows};
   match(step.bands, input, options, pyramid.scratch, maps.disparity, maps.ratio, nullptr);
 }
 
@@ -118,8 +138,8 @@ void support_guide(const StepContext& step, Pyramid& pyramid) {
 
 RatedViews rated_guide_views(const Views& views, const Pyramid& pyramid) {
   const PyramidLevel& level = pyramid.levels[0];
-  return {level.views[0].view(), level.views[1].view(), views.noise_level, &pyramid.agreement,
-          kWindowTile / 2};
+  return {level.views[0].view(), level.views[1].view(), views.noise_level,
+          &pyramid.agreement,    kWindowTile / 2,       &pyramid.balance};
 }
 
 void rate_guide(const StepContext& step, const Views& views, Pyramid& pyramid) {

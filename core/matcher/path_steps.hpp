@@ -9,6 +9,7 @@
 #include "matcher/map_steps.hpp"
 #include "matcher/rating.hpp"
 #include "matcher/view_steps.hpp"
+#include "stages/pixels/gray_balance.hpp"
 #include "stages/pixels/path_matching.hpp"
 #include "stages/pixels/search_windows.hpp"
 #include "stages/prepare/census.hpp"
@@ -34,7 +35,8 @@ struct Pyramid {
   WindowVotes votes;                                ///< of the level of 1/2
   SearchWindows windows;                            ///< of full resolution
   Image<std::uint8_t> agreement;                    ///< a pixel for each tile of the votes
-  SupportMap support;                               ///< of the level of 1/2
+  GrayBalance balance;                              ///< of the level of 1/2
+  SupportMap support;                               ///< of that level
   Image<std::uint8_t> confidence;                   ///< of that level
   Rating rating;                                    ///< of that level
 
@@ -54,6 +56,9 @@ void match_reduced(const StepContext& step, const Views& views, Pyramid& pyramid
 
 /// Chooses the disparities at which the pixels are matched at the matched resolution.
 void choose_search_windows(const StepContext& step, Pyramid& pyramid);
+
+/// Finds how much brighter the left view is than the right one.
+void balance_grays(const StepContext& step, Pyramid& pyramid);
 
 /// Matches the views at the matched resolution.
 void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyramid, Maps& maps);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/rating.hpp"
 
-#include "stages/refine/gray_mapping.hpp"
-
 namespace mtstereo {
 
 void Rating::resize(int width, int height, int threads, ReusedMemory& reused) {
@@ -18,11 +16,9 @@ void Rating::resize(int width, int height, int threads, ReusedMemory& reused) {
 void rate(const Bands& bands, const RatedViews& views, const Image<std::int32_t>& map,
           const TableParts& parts, Inferred inferred, Rating& rating,
           Image<std::uint8_t>& confidence) {
-  // Few rows: a part of a millisecond for a view of many megapixels.
-  const GrayMapping grays = find_gray_mapping(views, map, confidence);
   const ReliabilityTable table = table_for(parts, part_shares(views));
   bands.rows([&](int y0, int y1, int worker) {
-    gather_clues(views, grays, map, confidence, y0, y1, rating.scratch[worker].clues, rating.clues);
+    gather_clues(views, map, confidence, y0, y1, rating.scratch[worker].clues, rating.clues);
   });
   bands.rows([&](int y0, int y1, int worker) {
     rate_reliability(views, map, rating.clues, table, inferred, y0, y1,

@@ -44,6 +44,7 @@ constexpr Step kViewList[] = {
 constexpr Step kPathList[] = {
     {"reduced-matching",   always,                                   on<match_reduced>},
     {"search-windows",     always,                                   on<choose_search_windows>},
+    {"gray-balance",       always,                                   on<balance_grays>},
     {"census",             always,                                   on<transform>},
     {"path-matching",      always,                                   on<match_by_paths>},
     {"guide-support",      always,                                   on<support_guide>},

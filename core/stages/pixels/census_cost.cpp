@@ -53,6 +53,35 @@ class Difference {
   const std::uint8_t* right_[kCensusBytes];
 };
 
+/// What the difference of the gray values of one left pixel and its right pixels costs.
+template <class D8>
+class GrayDifference {
+ public:
+  HWY_INLINE GrayDifference(const GrayRow& row, int width, int x)
+      : left_(hn::Set(D8(), row.left[x])), right_(row.right + (width - 1 - x)) {}
+
+  HWY_INLINE hn::Vec<D8> cost(int d) const {
+    static_assert(kGrayCost == 2);
+    const D8 d8;
+    const auto right = hn::LoadU(d8, right_ + d);
+    const auto difference = hn::Or(hn::SaturatedSub(left_, right), hn::SaturatedSub(right, left_));
+    const auto counted = hn::Min(difference, hn::Set(d8, kMostGrayDifference));
+    return hn::Add(counted, counted);
+  }
+
+ private:
+  hn::Vec<D8> left_;
+  const std::uint8_t* right_;
+};
+
+/// Costs without the gray values.
+template <class D8>
+class NoGrayDifference {
+ public:
+  HWY_INLINE NoGrayDifference(const GrayRow&, int, int) {}
+  HWY_INLINE hn::Vec<D8> cost(int) const { return hn::Zero(D8()); }
+};
+
 /// Calls `vector(d)` for each vector of a window; kVectors: their number, or 0 if it is not known.
 template <int kVectors, class D8, class Vector>
 HWY_INLINE void for_each_vector(CostWindow window, const Vector& vector) {
@@ -160,7 +189,7 @@ HWY_INLINE hn::Vec<D8> mean_along_row(D8 d8, const std::uint8_t* sums, std::ptrd
 
 /// Writes the costs of both rows in the columns x0 .. x1 - 1 of a tile. `sums` are those of the
 /// columns x0 - kSize / 2 ..
-template <int kSize, int kVectors, class D8>
+template <int kSize, int kVectors, class D8, class Gray>
 HWY_INLINE void write_costs(const CensusWindow& window, CostWindow matched, int x0, int x1,
                             const std::uint8_t* sums, const ExpectedCosts& expected,
                             std::uint8_t* upper, std::uint8_t* lower) {
@@ -171,13 +200,16 @@ HWY_INLINE void write_costs(const CensusWindow& window, CostWindow matched, int 
     // get the penalty.
     const std::uint8_t* below = expected.below + lanes - expected.low[x];
     const std::uint8_t* above = expected.above + lanes - 1 - expected.high[x];
+    const Gray upper_gray(window.gray[0], window.width, x);
+    const Gray lower_gray(window.gray[1], window.width, x);
     for_each_vector<kVectors, D8>(matched, [&](int d) HWY_ATTR {
       const auto penalty = hn::Max(hn::LoadU(d8, below + d), hn::LoadU(d8, above + d));
-      const auto cost = [&](const std::uint8_t* of_row) HWY_ATTR {
-        return hn::SaturatedAdd(mean_along_row<kSize>(d8, of_row + d, stride), penalty);
+      const auto cost = [&](const std::uint8_t* of_row, const Gray& gray) HWY_ATTR {
+        const auto bits = mean_along_row<kSize>(d8, of_row + d, stride);
+        return hn::SaturatedAdd(hn::SaturatedAdd(bits, gray.cost(d)), penalty);
       };
-      hn::StoreU(cost(sums), d8, upper + (d - matched.begin));
-      hn::StoreU(cost(sums + lanes), d8, lower + (d - matched.begin));
+      hn::StoreU(cost(sums, upper_gray), d8, upper + (d - matched.begin));
+      hn::StoreU(cost(sums + lanes, lower_gray), d8, lower + (d - matched.begin));
     });
   }
 }
@@ -200,7 +232,7 @@ void hide_nonexistent(CostWindow matched, int disparities, int pixels, std::uint
 
 /// Counts the rows that enter the windows and writes the costs, tile by tile, while the sums of the
 /// adjacent columns are in the cache.
-template <int kSize, class D8>
+template <int kSize, class D8, class Gray>
 void write_rows_of(const CensusWindow& of_window, int disparities, const ExpectedCosts& of_expected,
                    std::uint8_t* (&costs)[kPairedRows]) {
   // Copies: the compiler knows that no store of bytes changes them.
@@ -229,8 +261,8 @@ void write_rows_of(const CensusWindow& of_window, int disparities, const Expecte
     }
     const CostWindow matched = window_at(window.matched, window.lanes, x0);
     with_vectors<D8>(matched, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-      write_costs<kSize, kVectors, D8>(window, matched, x0, x1, window.sums, expected, upper,
-                                       lower);
+      write_costs<kSize, kVectors, D8, Gray>(window, matched, x0, x1, window.sums, expected, upper,
+                                             lower);
     });
     for (std::uint8_t** row : {&upper, &lower}) {
       hide_nonexistent(matched, disparities, x1 - x0, *row);
@@ -241,12 +273,17 @@ void write_rows_of(const CensusWindow& of_window, int disparities, const Expecte
 
 void write_rows(const CensusWindow& window, const CensusCostOptions& options,
                 const ExpectedCosts& expected, std::uint8_t* (&costs)[kPairedRows]) {
-  const auto by_size = [&]<class D8>(D8) {
-    return options.kernel_size == 5   ? write_rows_of<5, D8>
-           : options.kernel_size == 3 ? write_rows_of<3, D8>
-                                      : write_rows_of<1, D8>;
+  const auto by_size = [&]<class D8, class Gray>(D8, const Gray*) {
+    return options.kernel_size == 5   ? write_rows_of<5, D8, Gray>
+           : options.kernel_size == 3 ? write_rows_of<3, D8, Gray>
+                                      : write_rows_of<1, D8, Gray>;
   };
-  const auto write = is_wide(window) ? by_size(Wide()) : by_size(Narrow());
+  const auto by_gray = [&]<class D8>(D8 d8) {
+    return window.gray[0].left == nullptr
+               ? by_size(d8, static_cast<const NoGrayDifference<D8>*>(nullptr))
+               : by_size(d8, static_cast<const GrayDifference<D8>*>(nullptr));
+  };
+  const auto write = is_wide(window) ? by_gray(Wide()) : by_gray(Narrow());
   write(window, options.disparities, expected, costs);
 }
 
@@ -268,6 +305,9 @@ std::size_t plane_bytes(int width, int lanes) {
   return kCensusBytes * (static_cast<std::size_t>(width) + lanes);
 }
 
+/// Bytes of the gray values of a row.
+std::size_t gray_bytes(int width, int lanes) { return 2 * static_cast<std::size_t>(width) + lanes; }
+
 /// Row y of both views. Rows outside of the image repeat the border's row.
 CensusRow row_of(const CensusImage& left, const CensusImage& right, int y, int lanes,
                  std::uint8_t* planes) {
@@ -281,10 +321,9 @@ CensusRow row_of(const CensusImage& left, const CensusImage& right, int y, int l
 
 /// Prepares the windows of the rows y and y + 1, which the last two of their rows enter. Before
 /// them the windows have as many pairs of rows as they reach.
-CensusWindow windows_of(const CensusImage& left, const CensusImage& right,
-                        const SearchWindows& windows, const CensusCostOptions& options, int y,
-                        CensusCostScratch& scratch) {
-  const int width = left.bits.width();
+CensusWindow windows_of(const CostViews& views, const SearchWindows& windows,
+                        const CensusCostOptions& options, int y, CensusCostScratch& scratch) {
+  const int width = views.left.bits.width();
   const int lanes = cost_lanes(options.disparities);
   const int reach = options.kernel_size / 2;
   const bool up = scratch.direction == RowDirection::kUp;
@@ -294,7 +333,7 @@ CensusWindow windows_of(const CensusImage& left, const CensusImage& right,
   for (int i = 0; i < kPairedRows; ++i) {
     std::uint8_t* planes = scratch.planes.data() + i * plane_bytes(width, lanes);
     const int entering = up ? y + 1 - reach - i : y + reach + i;
-    window.in[i] = row_of(left, right, entering, lanes, planes);
+    window.in[i] = row_of(views.left, views.right, entering, lanes, planes);
   }
   if (reach > 0) {
     const std::size_t cells = static_cast<std::size_t>(width) * lanes;
@@ -309,6 +348,18 @@ CensusWindow windows_of(const CensusImage& left, const CensusImage& right,
   return window;
 }
 
+/// The gray values of row y; outside of the image those of the border's row.
+GrayRow gray_row(const GrayPair& pair, int y, int lanes, std::uint8_t* memory) {
+  const int width = pair.left.width, inside = std::min(y, pair.left.height - 1);
+  std::uint8_t* left = memory;
+  std::uint8_t* right = memory + width;
+  balance_row(pair.left, inside, pair.balance, 2 * kBalanceTile, left);
+  map_row(pair.right.row(inside), width, pair.balance.mapping, right);
+  std::reverse(right, right + width);
+  std::fill_n(right + width, lanes, right[width - 1]);
+  return {left, right};
+}
+
 }  // namespace
 
 void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
@@ -318,6 +369,7 @@ void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
   counts.resize(static_cast<std::size_t>(width) * lanes * kPairedRows * reach);
   sums.resize(static_cast<std::size_t>(kWindowTile + 2 * reach) * kPairedRows * lanes);
   tables.resize(4 * static_cast<std::size_t>(lanes));
+  grays.resize(kPairedRows * gray_bytes(width, lanes));
   const int penalty = std::min(options.range_penalty * cost_scale(options), 255);
   std::uint8_t* below = tables.data();
   std::uint8_t* above = below + 2 * lanes;
@@ -327,31 +379,36 @@ void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
   std::memset(above + lanes, penalty, lanes);
 }
 
-void start_census_costs(const CensusImage& left, const CensusImage& right,
-                        const SearchWindows& windows, const CensusCostOptions& options, int y,
-                        RowDirection direction, CensusCostScratch& scratch) {
+void start_census_costs(const CostViews& views, const SearchWindows& windows,
+                        const CensusCostOptions& options, int y, RowDirection direction,
+                        CensusCostScratch& scratch) {
   scratch.direction = direction;
   const int reach = options.kernel_size / 2;
   for (int before = reach; before > 0; --before) {
     const int rows = kPairedRows * before;
     const int pair = direction == RowDirection::kUp ? y + rows : y - rows;
     HWY_DYNAMIC_DISPATCH(add_rows)
-    (windows_of(left, right, windows, options, pair, scratch), reach);
+    (windows_of(views, windows, options, pair, scratch), reach);
   }
 }
 
-void census_cost_rows(const CensusImage& left, const CensusImage& right,
-                      const SearchWindows& windows, const CensusCostOptions& options, int y,
-                      const std::uint16_t* low, const std::uint16_t* high,
-                      CensusCostScratch& scratch, std::uint8_t* upper, std::uint8_t* lower) {
-  const std::size_t lanes = cost_lanes(options.disparities);
+void census_cost_rows(const CostViews& views, const SearchWindows& windows,
+                      const CensusCostOptions& options, int y, const std::uint16_t* low,
+                      const std::uint16_t* high, CensusCostScratch& scratch, std::uint8_t* upper,
+                      std::uint8_t* lower) {
+  const int lanes = cost_lanes(options.disparities);
   const std::uint8_t* tables = scratch.tables.data();
-  CensusWindow window = windows_of(left, right, windows, options, y, scratch);
+  CensusWindow window = windows_of(views, windows, options, y, scratch);
   window.matched = windows.row(y);
-  if (scratch.direction == RowDirection::kUp) std::swap(upper, lower);
+  const bool up = scratch.direction == RowDirection::kUp;
+  for (int i = 0; views.gray != nullptr && i < kPairedRows; ++i) {
+    std::uint8_t* memory = scratch.grays.data() + i * gray_bytes(window.width, lanes);
+    window.gray[i] = gray_row(*views.gray, up ? y + 1 - i : y + i, lanes, memory);
+  }
+  if (up) std::swap(upper, lower);
   std::uint8_t* rows[kPairedRows] = {upper, lower};
   HWY_DYNAMIC_DISPATCH(write_rows)
-  (window, options, {low, high, tables, tables + 2 * lanes}, rows);
+  (window, options, {low, high, tables, tables + std::ptrdiff_t{2} * lanes}, rows);
 }
 
 }  // namespace mtstereo

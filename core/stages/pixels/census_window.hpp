@@ -19,6 +19,12 @@ struct CensusRow {
   std::uint8_t* right[kCensusBytes];
 };
 
+/// The gray values of a row.
+struct GrayRow {
+  const std::uint8_t* left;   ///< as bright as the right view
+  const std::uint8_t* right;  ///< mirrored, like CensusRow::right
+};
+
 /// Rows whose costs are written at once, and which enter the window.
 inline constexpr int kPairedRows = 2;
 
@@ -39,6 +45,7 @@ struct CensusWindow {
   const std::uint8_t* middle;  ///< of both rows of the second pair, in windows of 5 rows
   const CostWindow* matched;   ///< the windows of the rows whose costs are written
   const CostWindow* counted;   ///< windows that cover all rows that the entering ones concern
+  GrayRow gray[kPairedRows];   ///< of the rows whose costs are written; nullptr: without their cost
   std::uint8_t* sums;  ///< of a tile's columns and those that its costs need: [column][row][d]
 };
 

@@ -102,13 +102,12 @@ class ChunkMatching {
   /// The costs of the rows y and y + 1.
   void find_costs(int y) {
     const ExpectedRange& range = expected(y);
-    census_cost_rows(input_.left, input_.right, input_.windows, options_.cost, y, range.low.data(),
+    census_cost_rows(input_.costs, input_.windows, options_.cost, y, range.low.data(),
                      range.high.data(), scratch_.cost, costs(y), costs(y + 1));
   }
 
   void start_costs(int y, RowDirection direction) {
-    start_census_costs(input_.left, input_.right, input_.windows, options_.cost, y, direction,
-                       scratch_.cost);
+    start_census_costs(input_.costs, input_.windows, options_.cost, y, direction, scratch_.cost);
   }
 
   /// Finds the costs of all rows, and advances the paths while they are in the cache. Outside of

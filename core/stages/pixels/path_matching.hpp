@@ -39,8 +39,7 @@ inline constexpr int kCostVotingRows = 2;
 /// What the views at one resolution are matched from.
 struct PathMatchingInput {
   GrayView image;  ///< the left view
-  const CensusImage& left;
-  const CensusImage& right;
+  CostViews costs;
   const Image<std::int32_t>* half_map;  ///< of half the resolution, or nullptr
   const SearchWindows& windows;
 };

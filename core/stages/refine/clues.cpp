@@ -97,21 +97,20 @@ void copy_disparities(const std::int32_t* map, int width, std::int16_t* out) {
 
 static_assert(1 << 8 == kDisparityOne);
 
-void find_mismatch(const RatedViews& views, const GrayMapping& grays, const std::int32_t* map,
-                   int y, int width, ClueScratch& scratch) {
+void find_mismatch(const RatedViews& views, const std::int32_t* map, int y, int width,
+                   ClueScratch& scratch) {
   const int right_width = views.right.width;
   std::uint8_t* right = scratch.right.data();
-  std::memcpy(right + 2, views.right.row(y), right_width);
-  if (!grays.is_identity) {
-    for (int x = 0; x < right_width; ++x) right[2 + x] = grays.left_of_right[right[2 + x]];
-  }
+  map_row(views.right.row(y), right_width, views.balance->mapping, right + 2);
   std::memset(right, right[2], 2);
   std::memset(right + 2 + right_width, right[1 + right_width], 3);
   std::uint32_t* partner = scratch.partner.data();
   HWY_DYNAMIC_DISPATCH(find_partners)(map, width, right_width, partner);
   for (int x = 0; x < width; ++x) std::memcpy(partner + x, right + partner[x], sizeof *partner);
   std::uint8_t* mismatch = scratch.values.data();
-  HWY_DYNAMIC_DISPATCH(find_least)(views.left.row(y), partner, width, mismatch + 1);
+  std::uint8_t* left = scratch.left.data();
+  balance_row(views.left, y, *views.balance, 2 * views.agreement_tile, left);
+  HWY_DYNAMIC_DISPATCH(find_least)(left, partner, width, mismatch + 1);
   mismatch[0] = mismatch[1];
   mismatch[width + 1] = mismatch[width];
 }
@@ -136,11 +135,12 @@ void ClueMaps::resize(int width, int height, ReusedMemory* reused) {
 void ClueScratch::resize(int width) {
   marks.resize(width + 2 * kShareReach + kVector);
   values.resize(width + kTextureSide + kVector);
+  left.resize(width);
   right.resize(width + 5);  // two pixels before, three after
   partner.resize(width);
 }
 
-void gather_clues(const RatedViews& views, const GrayMapping& grays, const Image<std::int32_t>& map,
+void gather_clues(const RatedViews& views, const Image<std::int32_t>& map,
                   const Image<std::uint8_t>& confidence, int y0, int y1, ClueScratch& scratch,
                   ClueMaps& clues) {
   const int width = map.width();
@@ -150,7 +150,7 @@ void gather_clues(const RatedViews& views, const GrayMapping& grays, const Image
     copy_disparities(map.row(y), width, clues.disparity.row(y));
     HWY_DYNAMIC_DISPATCH(mark_matched)(confidence.row(y), width, marks + kShareReach);
     HWY_DYNAMIC_DISPATCH(add_columns)(marks, kShareSide, width, clues.matched.row(y));
-    find_mismatch(views, grays, map.row(y), y, width, scratch);
+    find_mismatch(views, map.row(y), y, width, scratch);
     HWY_DYNAMIC_DISPATCH(add_columns)(scratch.values.data(), 3, width, clues.mismatch.row(y));
     find_changes(views.left.row(y), width, scratch.values.data());
     HWY_DYNAMIC_DISPATCH(add_columns)

@@ -6,6 +6,7 @@
 
 #include "base/buffer.hpp"
 #include "mtstereo/image.hpp"
+#include "stages/pixels/gray_balance.hpp"
 #include "stages/refine/block_grid.hpp"
 
 namespace mtstereo {
@@ -54,6 +55,7 @@ struct ClueMaps {
 struct ClueScratch {
   Buffer<std::uint8_t> marks;     ///< of a row, with borders of kShareReach
   Buffer<std::uint8_t> values;    ///< of a row, with the borders of its sums
+  Buffer<std::uint8_t> left;      ///< a row of the left view, as bright as the right one
   Buffer<std::uint8_t> right;     ///< a row of the right view with borders
   Buffer<std::uint32_t> partner;  ///< of a row's pixels: its place in `right`, then the gray values
 
@@ -79,6 +81,7 @@ struct RatedViews {
   /// The shares of agreeing pixels in tiles of this size (agreement.hpp).
   const Image<std::uint8_t>* agreement;
   int agreement_tile;
+  const GrayBalance* balance;  ///< of the views, or of views of half their size
 
   RatedGuide guide = {};
   float fine_detail = kUnknownDetail;  ///< FineDetail::share()
@@ -87,16 +90,10 @@ struct RatedViews {
   bool halved = false;                 ///< the views have half the resolution of the input
 };
 
-/// The gray value of the left view for each of the right one.
-struct GrayMapping {
-  bool is_identity = true;  ///< all stay as they are
-  std::array<std::uint8_t, 256> left_of_right{};
-};
-
 /// Reads the rows y0 .. y1 - 1 of the map. Pixels with a confidence above kMostInferred are matched
 /// ones. The mismatch of a pixel is the least difference between its gray value and those of the
-/// three pixels of the right view around its partner.
-void gather_clues(const RatedViews& views, const GrayMapping& grays, const Image<std::int32_t>& map,
+/// three pixels of the right view around its partner, after balancing them.
+void gather_clues(const RatedViews& views, const Image<std::int32_t>& map,
                   const Image<std::uint8_t>& confidence, int y0, int y1, ClueScratch& scratch,
                   ClueMaps& clues);
 

@@ -8,7 +8,6 @@
 #include "matcher/frame_matcher.hpp"
 #include "matcher/settings.hpp"
 #include "mtstereo/parameters.hpp"
-#include "stages/refine/gray_mapping.hpp"
 #include "stages/refine/reliability.hpp"
 #include "tools/eval/degrade.hpp"
 #include "tools/eval/metrics.hpp"
@@ -49,8 +48,7 @@ class Bins {
     gathering.resize(width);
     clues_.resize(width, height);
     scratch_.resize(width);
-    gather_clues(views_, find_gray_mapping(views_, disparity_, confidence_), disparity_,
-                 confidence_, 0, height, gathering, clues_);
+    gather_clues(views_, disparity_, confidence_, 0, height, gathering, clues_);
   }
 
   std::array<std::uint8_t, kClues> at(int x, int y) {

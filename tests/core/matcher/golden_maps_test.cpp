@@ -44,14 +44,14 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0x55822a340270731f},
-    {"default", "semi-dense", 0xdda3771099482c3b},
-    {"default", "dense", 0x244946ec47b7b399},
-    {"default", "full", 0x35ecd305c4811503},
-    {"fast", "sparse", 0x72b1b71c039f39e9},
-    {"fast", "semi-dense", 0x38d3c7c1b0a6ad79},
-    {"fast", "dense", 0xf83d518a83a9ca3a},
-    {"fast", "full", 0xe984fa107b9e78e6},
+    {"default", "sparse", 0xc4c08f95f3d330e5},
+    {"default", "semi-dense", 0x4835f72dbc0b1c47},
+    {"default", "dense", 0xafe23661c553b973},
+    {"default", "full", 0xf7c3b4356c9f8b31},
+    {"fast", "sparse", 0x1c69179190b1b253},
+    {"fast", "semi-dense", 0x6cf8a970e7797d89},
+    {"fast", "dense", 0xc90374d375015cff},
+    {"fast", "full", 0x4d3ac0964f08ac1a},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

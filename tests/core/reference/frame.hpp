@@ -11,6 +11,8 @@
 #include "reference/nodes/node_extrapolation.hpp"
 #include "reference/nodes/outlier_removal.hpp"
 #include "reference/pixels/agreement.hpp"
+#include "reference/pixels/gray_balance.hpp"
+#include "reference/pixels/gray_mapping.hpp"
 #include "reference/pixels/path_matching.hpp"
 #include "reference/pixels/pixel_matching.hpp"
 #include "reference/prepare/block_borders.hpp"
@@ -26,7 +28,6 @@
 #include "reference/refine/enlarging.hpp"
 #include "reference/refine/flat_planes.hpp"
 #include "reference/refine/gap_filling.hpp"
-#include "reference/refine/gray_mapping.hpp"
 #include "reference/refine/holding.hpp"
 #include "reference/refine/left_strip.hpp"
 #include "reference/refine/map_smoothing.hpp"
@@ -70,6 +71,8 @@ struct Frame {
   DisparityPlane half_map_by_cost;  ///< the same without paths
   Windows windows;                  ///< of the views
   GrayPlane agreement;              ///< of the tiles of the views
+  Grays grays;                      ///< what those of the right view are in the left one
+  test::Plane<int> balance;         ///< of tiles of 32x32 px
   DisparityPlane nodes;             ///< the drawn leaves; without outliers after their removal
   DisparityPlane map;
   DisparityPlane found;  ///< the map before the filters, negative at thin structures
@@ -267,9 +270,16 @@ inline void choose_windows(Frame& f) {
       share_agreement(f.half_map, f.half_map_by_cost, f.views[0].width, f.views[0].height);
 }
 
+inline void balance_grays(Frame& f) {
+  const GrayPlane left = halve(f.views[0]), right = halve(f.views[1]);
+  f.grays = map_grays(left, right, f.half_map);
+  f.balance = balance_of(left, mapped(right, f.grays), f.half_map);
+}
+
 inline void match_by_paths(Frame& f) {
-  const PathInput input = {f.views[0], f.views[1], &f.half_map, f.windows,
-                           f.settings.census_scales};
+  const GrayPlane left = balanced(f.views[0], f.balance, 32), right = mapped(f.views[1], f.grays);
+  const PathInput input = {f.views[0], f.views[1], &f.half_map, f.windows, f.settings.census_scales,
+                           &left,      &right};
   take(f, match_along_paths(input, path_options(f, 0)));
 }
 
@@ -280,8 +290,8 @@ inline void support_guide(Frame& f) {
 inline void rate_guide(Frame& f) {
   std::array<GrayPlane, 2> halves;
   for (int side = 0; side < 2; ++side) halves[side] = halve(f.views[side]);
-  const Grays grays = map_grays(halves[0], halves[1], f.guide);
-  const RatedPair pair = {halves[0], halves[1], f.noise, f.agreement, 8, grays};
+  const GrayPlane left = balanced(halves[0], f.balance, 16), right = mapped(halves[1], f.grays);
+  const RatedPair pair = {left, right, halves[0], f.noise, f.agreement, 8};
   const auto table = static_cast<int>(mtstereo::RatedMap::kGuide);
   const auto entries =
       table_of(kReliabilityTables[table], f.noise, mtstereo::kUnknownDetail, 0, true);
@@ -336,9 +346,9 @@ inline void doubt_edges(Frame& f) {
 
 inline void calibrate_confidence(Frame& f) {
   const ConfidentMap complete = {f.map, f.confidence};
-  const Grays grays = map_grays(f.plain[0], f.plain[1], complete);
-  const RatedPair pair = {f.plain[0], f.plain[1], f.rated_noise, f.agreement, 16,
-                          grays,      &f.guide,   f.detail,      f.grid,      f.block};
+  const GrayPlane left = balanced(f.plain[0], f.balance, 32), right = mapped(f.plain[1], f.grays);
+  const RatedPair pair = {left, right,    f.plain[0], f.rated_noise, f.agreement,
+                          16,   &f.guide, f.detail,   f.grid,        f.block};
   const bool apart = !f.settings.keeps_inferred();
   const auto table = static_cast<int>(f.settings.rated_map());
   const auto entries =
@@ -440,6 +450,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"node-extrapolation", extrapolate},
     {"reduced-matching", match_reduced},
     {"search-windows", choose_windows},
+    {"gray-balance", balance_grays},
     {"path-matching", match_by_paths},
     {"guide-support", support_guide},
     {"guide-rating", rate_guide},

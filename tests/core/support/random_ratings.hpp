@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "reference/pixels/gray_balance.hpp"
 #include "reference/refine/reliability.hpp"
 #include "stages/refine/reliability.hpp"
 #include "support/compare.hpp"
@@ -50,19 +51,14 @@ struct RandomRating {
     }
     guide_map = image_of(guide.map);
     guide_confidence = image_of(guide.confidence);
-    grays.is_identity = random.below(2) == 0;
-    for (int gray = 0; gray < 256; ++gray) {
-      const int mapped = grays.is_identity ? gray : random.between(0, 255);
-      grays.left_of_right[gray] = static_cast<std::uint8_t>(mapped);
-      plain_grays[gray] = mapped;
-    }
+    differ(width, height, random);
   }
   GrayPlane left, right;
   reference::ConfidentMap in;
   GrayPlane agreement{1, 1};  ///< of tiles
   Image<std::uint8_t> tiles;  ///< the same
-  GrayMapping grays;
-  reference::Grays plain_grays{};  ///< the same
+  GrayBalance balance;
+  GrayPlane balanced, mapped;  ///< the views after it
   reference::ConfidentMap guide{DisparityPlane(1, 1), GrayPlane(1, 1)};
   Image<std::int32_t> guide_map;  ///< the same
   Image<std::uint8_t> guide_confidence;
@@ -71,12 +67,48 @@ struct RandomRating {
   int block_side = 8;
 
   RatedViews views(float noise) const {
-    return {left.view(), right.view(), noise,     &tiles, kTile, {&guide_map, &guide_confidence},
-            fine_detail, grid_level,   block_side};
+    return {left.view(),
+            right.view(),
+            noise,
+            &tiles,
+            kTile,
+            &balance,
+            {&guide_map, &guide_confidence},
+            fine_detail,
+            grid_level,
+            block_side};
   }
   reference::RatedPair pair(float noise) const {
-    return {left,        right,  noise,       agreement,  kTile,
-            plain_grays, &guide, fine_detail, grid_level, block_side};
+    return {balanced, mapped, left,        noise,      agreement,
+            kTile,    &guide, fine_detail, grid_level, block_side};
+  }
+
+  /// Forgets the balance: equal gray values are alike.
+  void unbalance() {
+    balance.mapping = {};
+    Image<std::int16_t>& around = balance.around;
+    for (int y = 0; y < around.height(); ++y) std::fill_n(around.row(y), around.width(), 0);
+  }
+
+ private:
+  /// A random balance, and the views after it.
+  void differ(int width, int height, Random& random) {
+    GrayMapping& mapping = balance.mapping;
+    mapping.is_identity = random.below(2) == 0;
+    for (std::uint8_t& gray : mapping.left_of_right) {
+      gray = static_cast<std::uint8_t>(random.below(256));
+    }
+    mapped = right;
+    for (std::uint8_t& gray : mapped.pixels) gray = mapping.of(gray);
+    balance.resize((width + 1) / 2, (height + 1) / 2);
+    Plane<int> differences(balance.around.width(), balance.around.height());
+    for (int y = 0; y < differences.height; ++y) {
+      for (int x = 0; x < differences.width; ++x) {
+        differences(x, y) = random.between(-20, 20);
+        balance.around.row(y)[x] = static_cast<std::int16_t>(differences(x, y));
+      }
+    }
+    balanced = reference::balanced(left, differences, 2 * kTile);
   }
 };
 

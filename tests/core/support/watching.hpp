@@ -15,9 +15,10 @@ namespace mtstereo::test {
 /// The disparity map after a step; empty if no step has written one yet.
 inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
   static constexpr std::string_view kBefore[] = {
-      "time-filter",   "row-alignment", "sharpness",     "view-shift",       "halving",
-      "block-borders", "contrast",      "noise-filter",  "census",           "preprocessing",
-      "max-trees",     "cost-volume",   "node-matching", "reduced-matching", "search-windows"};
+      "time-filter",   "row-alignment",    "sharpness",      "view-shift",
+      "halving",       "block-borders",    "contrast",       "noise-filter",
+      "census",        "preprocessing",    "max-trees",      "cost-volume",
+      "node-matching", "reduced-matching", "search-windows", "gray-balance"};
   if (std::count(std::begin(kBefore), std::end(kBefore), step.name) > 0) return {};
   return memory.result.disparity->view();
 }

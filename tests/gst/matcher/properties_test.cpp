@@ -23,7 +23,7 @@ TEST_F(Properties, SayWhichAreForExpertsAndWhatTheDefaultsAre) {
   EXPECT_NE(
       std::string::npos,
       blurb("min-confidence")
-          .find(". Default: 134 (sparse 210, dense 107, full 0); preset fast: 134 (sparse 190, "
+          .find(". Default: 134 (sparse 210, dense 107, full 0); preset fast: 134 (sparse 184, "
                 "dense 97, full 0); preset paper: 0"));
   EXPECT_NE(std::string::npos,
             blurb("census-kernel-size").find(". Unit: px. Default: 5 (dense 3, full 3)"));

@@ -327,7 +327,7 @@ TEST_P(Chain, RawPairIsMatchedAsWellAsAnIdealOne) {
               GetParam().c_str(), raw_error, raw_density, ideal_error, ideal_density);
   // Few pixels are wrong, so that the errors of a few decide.
   EXPECT_LT(raw_error, 1.1 * ideal_error + 0.15);
-  EXPECT_GT(raw_density, ideal_density - 2);
+  EXPECT_GT(raw_density, ideal_density - 2.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lenses, Chain, testing::ValuesIn(render::rig_names()),

@@ -43,6 +43,8 @@ struct PathInput {
   const DisparityPlane* half_map;
   Windows windows = {};
   int census_scales = 2;
+  const GrayPlane* left_gray = nullptr;  ///< for the cost of gray values; nullptr: without it
+  const GrayPlane* right_gray = nullptr;
 };
 
 /// The costs of all rows.
@@ -50,7 +52,8 @@ inline std::vector<RowCosts> path_matching_costs(const PathInput& input,
                                                  const PathMatchingOptions& options) {
   const int width = input.left.width, height = input.left.height;
   const CensusCosts census_costs{census(input.left, input.census_scales),
-                                 census(input.right, input.census_scales), options.cost};
+                                 census(input.right, input.census_scales), options.cost,
+                                 input.left_gray, input.right_gray};
   std::vector<RowCosts> costs(height, RowCosts(width));
   for (int y = 0; y < height; ++y) {
     const RowCosts columns = census_costs.columns(y);
@@ -58,7 +61,7 @@ inline std::vector<RowCosts> path_matching_costs(const PathInput& input,
       const auto [low, high] = expected_at(input.half_map, x, y, options.cost.disparities);
       for (int d = 0; d < options.cost.disparities; ++d) {
         const bool inside = input.windows.contain(x, y, d);
-        costs[y][x].push_back(inside ? census_costs.cost(columns, x, d, low, high) : kOutside);
+        costs[y][x].push_back(inside ? census_costs.cost(columns, x, y, d, low, high) : kOutside);
       }
     }
   }

@@ -81,6 +81,8 @@ inline constexpr int kOutside = -1;
 struct CensusCosts {
   Plane<std::uint32_t> left, right;
   CensusCostOptions options;
+  const GrayPlane* left_gray = nullptr;  ///< as bright as the right view; nullptr: no gray values
+  const GrayPlane* right_gray = nullptr;
 
   /// Number of different bits; without a right pixel, the first pixel of the row is used.
   int bits(int x, int y, int d) const {
@@ -109,11 +111,17 @@ struct CensusCosts {
     const int far = mean(column(x - 2), column(x + 2));
     return mean(near, mean(middle, mean(far, middle)));
   }
-  /// The cost of pixel x in the row of these columns. The disparities low .. high are expected.
-  int cost(const RowCosts& columns, int x, int d, int low, int high) const {
+  /// What the difference of the gray values of a pixel costs.
+  int gray(int x, int y, int d) const {
+    if (left_gray == nullptr) return 0;
+    const int difference = (*left_gray)(x, y) - (*right_gray)(std::max(x - d, 0), y);
+    return 2 * std::min(std::abs(difference), 10);
+  }
+  /// The cost of pixel x in row y, that of these columns. The disparities low .. high are expected.
+  int cost(const RowCosts& columns, int x, int y, int d, int low, int high) const {
     const bool expected = low <= d && d <= high;
     const int penalty = expected ? 0 : options.range_penalty * options.kernel_size;
-    return std::min(window(columns, x, d) + penalty, 255);
+    return std::min(window(columns, x, d) + gray(x, y, d) + penalty, 255);
   }
 };
 

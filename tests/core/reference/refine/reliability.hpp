@@ -8,19 +8,18 @@
 
 #include "reference/refine/block_grid.hpp"
 #include "reference/refine/gap_filling.hpp"
-#include "reference/refine/gray_mapping.hpp"
 #include "stages/refine/reliability_table.hpp"
 
 namespace mtstereo::reference {
 
 /// The views of a rated map.
 struct RatedPair {
-  const GrayPlane& left;
-  const GrayPlane& right;
+  const GrayPlane& left;   ///< as bright as the right view
+  const GrayPlane& right;  ///< with the gray values of the left one
+  const GrayPlane& plain;  ///< the left view as it is
   float noise;
   const GrayPlane& agreement;  ///< of tiles
   int tile;                    ///< [px]
-  const Grays& grays;          ///< of the right view
   const ConfidentMap* guide = nullptr;
   float detail = 1;  ///< the share of the finest octave
   int grid = 0;      ///< the level of the block grid
@@ -79,7 +78,7 @@ class PixelClues {
       int least = 85;
       for (int k = -1; k <= 1; ++k) {
         const int right = pair_.right(std::clamp(partner + k, 0, pair_.right.width - 1), y);
-        least = std::min(least, std::abs(pair_.left(x, y) - pair_.grays[right]));
+        least = std::min(least, std::abs(pair_.left(x, y) - right));
       }
       sum += least;
     }
@@ -91,7 +90,7 @@ class PixelClues {
     const int y = std::clamp(y_ + row, 0, in_.map.height - 1);
     int sum = 0;
     for (int x = std::max(x_ - 4, 1); x <= std::min(x_ + 4, in_.map.width - 1); ++x) {
-      sum += std::min(std::abs(pair_.left(x, y) - pair_.left(x - 1, y)), 28);
+      sum += std::min(std::abs(pair_.plain(x, y) - pair_.plain(x - 1, y)), 28);
     }
     return sum;
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reference/pixels/gray_balance.hpp"
 #include "reference/prepare/census.hpp"
 #include "support/census.hpp"
 #include "support/compare.hpp"
@@ -40,33 +41,33 @@ Ranges all_expected(int width, int disparities) {
 
 /// What earlier rows leave must not matter.
 void poison(CensusCostScratch& scratch) {
-  for (Buffer<std::uint8_t>* part : {&scratch.planes, &scratch.counts, &scratch.sums}) {
+  for (Buffer<std::uint8_t>* part :
+       {&scratch.planes, &scratch.counts, &scratch.sums, &scratch.grays}) {
     std::fill_n(part->data(), part->size(), std::uint8_t{0x5A});
   }
 }
 
 /// The costs of the rows y0 .. y1 - 1; y0 is even. What follows the cells of a row must stay as it
 /// was.
-std::vector<reference::RowCosts> costs_of(const CensusPair& pair, const CensusCostOptions& options,
+std::vector<reference::RowCosts> costs_of(const CostViews& views, const CensusCostOptions& options,
                                           int y0, int y1, RowDirection direction,
                                           const Ranges& ranges, CensusCostScratch& scratch,
                                           const SearchWindows& windows = {}) {
-  const int width = pair.left.bits.width();
+  const int width = views.left.bits.width();
   const int lanes = cost_lanes(options.disparities);
   const bool up = direction == RowDirection::kUp;
   const int pairs = (y1 - y0 + 1) / 2;
   scratch.resize(width, options);
   poison(scratch);
   std::vector<reference::RowCosts> costs(2 * pairs);
-  start_census_costs(pair.left, pair.right, windows, options, up ? y0 + 2 * pairs - 2 : y0,
-                     direction, scratch);
+  start_census_costs(views, windows, options, up ? y0 + 2 * pairs - 2 : y0, direction, scratch);
   for (int i = 0; i < pairs; ++i) {
     const int y = y0 + 2 * (up ? pairs - 1 - i : i);
     const std::ptrdiff_t cells = row_cells(windows.row(y), lanes, width);
     std::vector<std::uint8_t> rows[2];
     for (std::vector<std::uint8_t>& row : rows) row.assign(cells + lanes, 0xA5);
-    census_cost_rows(pair.left, pair.right, windows, options, y, ranges.low.data(),
-                     ranges.high.data(), scratch, rows[0].data(), rows[1].data());
+    census_cost_rows(views, windows, options, y, ranges.low.data(), ranges.high.data(), scratch,
+                     rows[0].data(), rows[1].data());
     for (int r = 0; r < 2; ++r) {
       costs[y - y0 + r] = test::costs_of(rows[r].data(), windows.row(y), width, lanes);
       EXPECT_EQ(lanes, std::count(rows[r].end() - lanes, rows[r].end(), 0xA5));
@@ -75,16 +76,43 @@ std::vector<reference::RowCosts> costs_of(const CensusPair& pair, const CensusCo
   return costs;
 }
 
-/// Compares every cell of the rows y0 .. y1 - 1 in both orders; disparities from D on must never be
-/// the least.
+/// A balance of a view of full resolution that differs from tile to tile, even beyond gray values.
+GrayBalance random_balance(int width, int height, Random& random) {
+  GrayBalance balance;
+  balance.resize((width + 1) / 2, (height + 1) / 2);
+  for (int y = 0; y < balance.around.height(); ++y) {
+    for (int x = 0; x < balance.around.width(); ++x) {
+      balance.around.row(y)[x] = static_cast<std::int16_t>(random.between(-60, 60));
+    }
+  }
+  balance.mapping.is_identity = random.below(2) == 0;
+  for (std::uint8_t& gray : balance.mapping.left_of_right) {
+    gray = static_cast<std::uint8_t>(random.below(256));
+  }
+  return balance;
+}
+
+/// Compares every cell of the rows y0 .. y1 - 1 in both orders, with and without the cost of gray
+/// values; disparities from D on must never be the least.
 void expect_reference(const Pair& views, const CensusCostOptions& options, int y0, int y1,
                       const Ranges& ranges, CensusCostScratch& scratch,
-                      const SearchWindows& windows = {}) {
+                      const SearchWindows& windows = {}, bool with_gray = false) {
+  if (!with_gray) expect_reference(views, options, y0, y1, ranges, scratch, windows, true);
   const CensusPair pair(views.left.view(), views.right.view());
-  const auto down = costs_of(pair, options, y0, y1, RowDirection::kDown, ranges, scratch, windows);
-  const auto up = costs_of(pair, options, y0, y1, RowDirection::kUp, ranges, scratch, windows);
+  Random random(options.disparities);
+  const GrayBalance balance = random_balance(views.left.width, views.left.height, random);
+  const GrayPair gray = {views.left.view(), views.right.view(), balance};
+  const CostViews input = {pair.left, pair.right, with_gray ? &gray : nullptr};
+  const auto down = costs_of(input, options, y0, y1, RowDirection::kDown, ranges, scratch, windows);
+  const auto up = costs_of(input, options, y0, y1, RowDirection::kUp, ranges, scratch, windows);
+  test::Plane<int> differences(balance.around.width(), balance.around.height());
+  const auto around = test::copy_of(balance.around);
+  std::copy(around.pixels.begin(), around.pixels.end(), differences.pixels.begin());
+  const GrayPlane balanced = reference::balanced(views.left, differences, 32);
+  GrayPlane mapped = views.right;
+  for (std::uint8_t& gray : mapped.pixels) gray = balance.mapping.of(gray);
   const reference::CensusCosts plain{reference::census(views.left), reference::census(views.right),
-                                     options};
+                                     options, with_gray ? &balanced : nullptr, &mapped};
   const int lanes = cost_lanes(options.disparities);
   const int width = views.left.width;
   const reference::Windows matched = test::copy_of(windows, width, views.left.height);
@@ -92,7 +120,7 @@ void expect_reference(const Pair& views, const CensusCostOptions& options, int y
     const reference::RowCosts columns = plain.columns(y);
     const auto expected = [&](int d, int x) {
       if (!matched.contain(x, y, d)) return reference::kOutside;
-      return d < options.disparities ? plain.cost(columns, x, d, ranges.low[x], ranges.high[x])
+      return d < options.disparities ? plain.cost(columns, x, y, d, ranges.low[x], ranges.high[x])
                                      : kCensusNever;
     };
     for (const auto* costs : {&down, &up}) {
@@ -100,7 +128,8 @@ void expect_reference(const Pair& views, const CensusCostOptions& options, int y
                                     [&](int d, int x) { return (*costs)[y - y0][x][d]; }))
           << "cells (disparity, column) of row " << y << " of " << views.left.height << ", D "
           << options.disparities << ", window " << options.kernel_size << ", penalty "
-          << options.range_penalty << (costs == &up ? ", upwards" : ", downwards");
+          << options.range_penalty << (with_gray ? ", gray values" : "")
+          << (costs == &up ? ", upwards" : ", downwards");
     }
   }
 }
@@ -182,8 +211,8 @@ TEST(CensusCost, IsZeroAtDisparityZeroForAnIdenticalPair) {
   const GrayPlane image = test::noise(50, 5, 3);
   const CensusPair pair(image.view(), image.view());
   CensusCostScratch scratch;
-  const auto costs =
-      costs_of(pair, {20, 5, 2}, 0, 4, RowDirection::kDown, all_expected(50, 20), scratch);
+  const auto costs = costs_of({pair.left, pair.right}, {20, 5, 2}, 0, 4, RowDirection::kDown,
+                              all_expected(50, 20), scratch);
   long more = 0;
   for (const reference::RowCosts& row : costs) {
     for (int x = 0; x < 50; ++x) {
@@ -210,14 +239,32 @@ TEST(CensusCost, CountsAllBitsOfAllRowsForInvertedViews) {
     scratch.resize(20, options);
     std::vector<std::uint16_t> low(20, 5), high(20, 8);
     std::vector<std::uint8_t> upper(20 * 32), lower(20 * 32);
-    start_census_costs(left, right, {}, options, 0, RowDirection::kDown, scratch);
-    census_cost_rows(left, right, {}, options, 0, low.data(), high.data(), scratch, upper.data(),
+    start_census_costs({left, right}, {}, options, 0, RowDirection::kDown, scratch);
+    census_cost_rows({left, right}, {}, options, 0, low.data(), high.data(), scratch, upper.data(),
                      lower.data());
     for (int d = 0; d < 20; ++d) {
       const int bits = d >= 5 && d <= 8 ? 24 : 40;
       EXPECT_EQ(bits * cost_scale(options), upper[10 * 32 + d]) << "window " << size << ", d " << d;
       EXPECT_EQ(bits * cost_scale(options), lower[10 * 32 + d]) << "window " << size << ", d " << d;
     }
+  }
+}
+
+TEST(CensusCost, CountsGrayValuesUpToAMost) {
+  // Flat views: the census finds no difference.
+  const GrayPlane left(20, 4, 100);
+  GrayBalance balance;
+  balance.resize(10, 2);
+  balance.around.row(0)[0] = 7;
+  for (const auto& [gray, cost] :
+       {std::pair(93, 0), {94, 2}, {88, 10}, {83, 20}, {0, 20}, {255, 20}}) {
+    const GrayPlane right(20, 4, static_cast<std::uint8_t>(gray));
+    const CensusPair pair(left.view(), right.view());
+    const GrayPair grays = {left.view(), right.view(), balance};
+    CensusCostScratch scratch;
+    const auto costs = costs_of({pair.left, pair.right, &grays}, {20, 3, 2}, 0, 4,
+                                RowDirection::kDown, all_expected(20, 20), scratch);
+    for (const reference::RowCosts& row : costs) EXPECT_EQ(cost, row[10][5]) << "gray " << gray;
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reference/pixels/gray_balance.hpp"
 #include "reference/pixels/path_matching.hpp"
 #include "support/census.hpp"
 #include "support/compare.hpp"
@@ -16,7 +17,10 @@ namespace {
 using reference::RatedMap;
 using test::Pair;
 
-/// Matches a pair, from the last chunk to the first.
+/// How much darker the left view is made for the cost of gray values.
+constexpr std::int16_t kBrighter = 3;
+
+/// Matches a pair, from the last chunk to the first; with gray values if there is a half map.
 RatedMap matched(const Pair& pair, const DisparityPlane* half_map,
                  const PathMatchingOptions& options, PathMatchingScratch& scratch,
                  const SearchWindows& windows = {}, WindowVotes* votes = nullptr) {
@@ -30,8 +34,17 @@ RatedMap matched(const Pair& pair, const DisparityPlane* half_map,
   test::poison(ratio);
   if (half_map != nullptr) half = image_of(*half_map);
   scratch.resize(width, height, options);
-  const PathMatchingInput input = {pair.left.view(), census.left, census.right,
-                                   half_map == nullptr ? nullptr : &half, windows};
+  GrayBalance balance;
+  balance.resize((width + 1) / 2, (height + 1) / 2);
+  for (int y = 0; y < balance.around.height(); ++y) {
+    std::fill_n(balance.around.row(y), balance.around.width(), kBrighter);
+  }
+  const GrayPair gray = {pair.left.view(), pair.right.view(), balance};
+  const PathMatchingInput input = {
+      pair.left.view(),
+      {census.left, census.right, half_map == nullptr ? nullptr : &gray},
+      half_map == nullptr ? nullptr : &half,
+      windows};
   const int threads = height % 2 + 1;
   const int rows = path_rows(options, height, threads);
   for (int i = (height - 1) / rows; i >= 0; --i) {
@@ -88,8 +101,12 @@ void expect_reference(int width, int height, PathMatchingScratch& scratch) {
     const SearchWindows windows =
         half_map == nullptr ? SearchWindows()
                             : test::random_windows(width, height, cost_lanes(disparities), random);
+    const GrayPlane balanced =
+        reference::balanced(pair.left, test::Plane<int>(1, 1, kBrighter), 1 << 20);
     const RatedMap expected = reference::match_along_paths(
-        {pair.left, pair.right, half_map, test::copy_of(windows, width, height)}, options);
+        {pair.left, pair.right, half_map, test::copy_of(windows, width, height), 2,
+         half_map == nullptr ? nullptr : &balanced, &pair.right},
+        options);
     const RatedMap actual = matched(pair, half_map, options, scratch, windows);
     EXPECT_TRUE(same_image(expected.map, actual.map)) << width << "x" << height;
     EXPECT_TRUE(same_image(expected.ratio, actual.ratio)) << width << "x" << height;

@@ -46,7 +46,7 @@ TEST(Clues, EqualReferenceAtEveryWidthOnEveryInstructionSet) {
       scratch.resize(rated.right.width);
       const Image<std::int32_t> map = image_of(rated.in.map);
       const Image<std::uint8_t> confidence = image_of(rated.in.confidence);
-      gather_clues(rated.views(1), rated.grays, map, confidence, 0, map.height(), scratch, clues);
+      gather_clues(rated.views(1), map, confidence, 0, map.height(), scratch, clues);
       expect_rows(rated, clues);
     }
   });

@@ -24,8 +24,7 @@ GrayPlane rate(const Rated& rated, float noise, Inferred inferred, int band,
   ClueScratch gathering;
   gathering.resize(map.width());
   for (int y = 0; y < map.height(); y += band) {
-    gather_clues(views, rated.grays, map, confidence, y, std::min(y + band, map.height()),
-                 gathering, clues);
+    gather_clues(views, map, confidence, y, std::min(y + band, map.height()), gathering, clues);
   }
   for (int y = 0; y < map.height(); y += band) {
     rate_reliability(views, map, clues, table, inferred, y, std::min(y + band, map.height()),
@@ -91,7 +90,7 @@ TEST(Reliability, AddsTheSharesOfTheParts) {
   parts[kBlockyPart][kShareClue][3] = 10;
   bool halved = false;
   const auto entry = [&](float noise, float detail, int grid_level = 0) {
-    RatedViews views = {{}, {}, noise, nullptr, 0};
+    RatedViews views = {{}, {}, noise, nullptr, 0, nullptr};
     views.fine_detail = detail;
     views.grid_level = grid_level;
     views.halved = halved;
@@ -125,7 +124,7 @@ TEST(Reliability, KeepsInferredDisparitiesApart) {
 /// A surface with a nearer one on its left, in views that show it without any difference.
 Rated step_scene() {
   Rated rated(80, 30, 1);
-  rated.grays = {};
+  rated.unbalance();
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 80; ++x) {
       rated.in.map(x, y) = x < 40 ? 20 * 256 : 256;

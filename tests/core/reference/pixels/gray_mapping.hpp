@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "reference/refine/gap_filling.hpp"
+#include "reference/pixels/gray_balance.hpp"
 
 namespace mtstereo::reference {
 
@@ -21,35 +21,37 @@ inline Grays same_grays() {
   return grays;
 }
 
-/// The mapping by the matched pixels of every 16th row: the mean differences of 16 gray values
+/// The mapping by the matched pixels of every 8th row: the median differences of 16 gray values
 /// each, with straight lines in between; none up to a mean difference of 3, all of it from 6 on.
-inline Grays map_grays(const GrayPlane& left, const GrayPlane& right, const ConfidentMap& in) {
-  struct Sum {
-    long pixels = 0, left = 0, right = 0;
+inline Grays map_grays(const test::GrayPlane& left, const test::GrayPlane& right,
+                       const test::DisparityPlane& map) {
+  struct Bin {
+    std::vector<int> differences;
+    long right = 0;
   };
-  std::vector<Sum> sums(16);
-  for (int y = 0; y < in.map.height; y += 16) {
-    for (int x = 0; x < in.map.width; ++x) {
-      if (in.confidence(x, y) <= 15) continue;
-      const double partner = std::floor(x - in.map(x, y) / 256.0 + 0.5);
-      if (partner < 0 || partner >= right.width) continue;
+  std::vector<Bin> bins(16);
+  for (int y = 0; y < map.height; y += 8) {
+    for (int x = 0; x < map.width; ++x) {
+      const double partner = std::floor(x - map(x, y) / 256.0 + 0.5);
+      if (map(x, y) == 0 || partner < 0) continue;
       const int seen = right(static_cast<int>(partner), y);
-      Sum& sum = sums[seen / 16];
-      sum = {sum.pixels + 1, sum.left + left(x, y), sum.right + seen};
+      bins[seen / 16].differences.push_back(left(x, y) - seen);
+      bins[seen / 16].right += seen;
     }
   }
-  std::erase_if(sums, [](const Sum& sum) { return sum.pixels < 16; });
-  long pixels = 0, difference = 0;
+  std::erase_if(bins, [](const Bin& bin) { return bin.differences.size() < 16; });
+  float pixels = 0, difference = 0;
   std::vector<std::pair<float, float>> points;  // mean gray value of the right view, difference
-  for (const Sum& sum : sums) {
-    pixels += sum.pixels;
-    difference += std::abs(sum.left - sum.right);
-    const auto count = static_cast<float>(sum.pixels);
-    points.emplace_back(sum.right / count, (sum.left - sum.right) / count);
+  for (const Bin& bin : bins) {
+    const auto count = static_cast<float>(bin.differences.size());
+    const auto median = static_cast<float>(middle_of(bin.differences));
+    pixels += count;
+    difference += count * std::abs(median);
+    points.emplace_back(static_cast<float>(bin.right) / count, median);
   }
   Grays grays = same_grays();
   if (pixels < 256) return grays;
-  const float mean = static_cast<float>(difference) / static_cast<float>(pixels);
+  const float mean = difference / pixels;
   const float share = std::clamp((mean - 3) / 3, 0.0F, 1.0F);
   for (int& gray : grays) {
     const auto value = static_cast<float>(gray);
@@ -63,6 +65,12 @@ inline Grays map_grays(const GrayPlane& left, const GrayPlane& right, const Conf
     gray = static_cast<int>(std::clamp(std::lround(value + share * at), 0L, 255L));
   }
   return grays;
+}
+
+inline test::GrayPlane mapped(const test::GrayPlane& right, const Grays& grays) {
+  test::GrayPlane out = right;
+  for (std::uint8_t& gray : out.pixels) gray = static_cast<std::uint8_t>(grays[gray]);
+  return out;
 }
 
 }  // namespace mtstereo::reference

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "stages/refine/gray_mapping.hpp"
+#include "stages/pixels/gray_mapping.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "base/ramp.hpp"
-#include "mtstereo/parameters.hpp"
+#include "stages/pixels/gray_differences.hpp"
 
 namespace mtstereo {
 namespace {
@@ -16,27 +15,26 @@ constexpr int kBins = kGrays / kMappedGrays;
 
 static_assert(1 << 8 == kDisparityOne);
 
-/// Sums over the matched pixels whose partner has a gray value of one bin.
+/// The matched pixels whose partner has a gray value of one bin.
 struct Bin {
-  std::int64_t pixels = 0;
-  std::int64_t left = 0;
-  std::int64_t right = 0;
+  GrayDifferences differences;
+  std::int64_t right = 0;  ///< sum of their gray values
 
-  float difference() const { return static_cast<float>(left - right) / static_cast<float>(pixels); }
-  float middle() const { return static_cast<float>(right) / static_cast<float>(pixels); }
+  /// The others are there by chance.
+  bool is_used() const { return differences.pixels() >= kLeastMappedPixels / kBins; }
+  float pixels() const { return static_cast<float>(differences.pixels()); }
+  float difference() const { return static_cast<float>(differences.median()); }
+  float middle() const { return static_cast<float>(right) / pixels(); }
 };
 
-void add_row(const RatedViews& views, const std::int32_t* map, const std::uint8_t* confidence,
-             int width, int y, std::array<Bin, kBins>& bins) {
-  const std::uint8_t* left = views.left.row(y);
-  const std::uint8_t* right = views.right.row(y);
+void add_row(const std::uint8_t* left, const std::uint8_t* right, const std::int32_t* map,
+             int width, std::array<Bin, kBins>& bins) {
   for (int x = 0; x < width; ++x) {
-    if (confidence[x] <= kMostInferred) continue;
+    if (map[x] == kNoDisparity) continue;
     const int partner = (x * kDisparityOne - map[x] + kDisparityOne / 2) >> 8;
-    if (partner < 0 || partner >= views.right.width) continue;
+    if (partner < 0) continue;
     Bin& bin = bins[right[partner] / kMappedGrays];
-    ++bin.pixels;
-    bin.left += left[x];
+    bin.differences.add(left[x] - right[partner]);
     bin.right += right[partner];
   }
 }
@@ -46,7 +44,7 @@ float difference_at(int gray, const std::array<Bin, kBins>& bins) {
   const Bin* before = nullptr;
   const auto value = static_cast<float>(gray);
   for (const Bin& bin : bins) {
-    if (bin.pixels == 0) continue;
+    if (!bin.is_used()) continue;
     if (bin.middle() >= value) {
       if (before == nullptr) return bin.difference();
       const float share = (value - before->middle()) / (bin.middle() - before->middle());
@@ -59,22 +57,20 @@ float difference_at(int gray, const std::array<Bin, kBins>& bins) {
 
 }  // namespace
 
-GrayMapping find_gray_mapping(const RatedViews& views, const Image<std::int32_t>& map,
-                              const Image<std::uint8_t>& confidence) {
+GrayMapping find_gray_mapping(GrayView left, GrayView right, const Image<std::int32_t>& map) {
   std::array<Bin, kBins> bins;
   for (int y = 0; y < map.height(); y += kMappedRows) {
-    add_row(views, map.row(y), confidence.row(y), map.width(), y, bins);
+    add_row(left.row(y), right.row(y), map.row(y), map.width(), bins);
   }
-  std::int64_t pixels = 0;
-  float sum = 0;
-  for (Bin& bin : bins) {
-    if (bin.pixels < kLeastMappedPixels / kBins) bin = {};  // chance
-    pixels += bin.pixels;
-    sum += static_cast<float>(std::abs(bin.left - bin.right));
+  float pixels = 0, sum = 0;
+  for (const Bin& bin : bins) {
+    if (!bin.is_used()) continue;
+    pixels += bin.pixels();
+    sum += bin.pixels() * std::abs(bin.difference());
   }
   GrayMapping mapping;
   if (pixels < kLeastMappedPixels) return mapping;
-  const float mean = sum / static_cast<float>(pixels);
+  const float mean = sum / pixels;
   const float share = ramp(kLeastMapped, kFullyMapped, mean);
   if (share == 0) return mapping;
   mapping.is_identity = false;
@@ -84,6 +80,15 @@ GrayMapping find_gray_mapping(const RatedViews& views, const Image<std::int32_t>
         static_cast<std::uint8_t>(std::clamp(std::lround(mapped), 0L, 255L));
   }
   return mapping;
+}
+
+void map_row(const std::uint8_t* right, int width, const GrayMapping& mapping, std::uint8_t* out) {
+  if (mapping.is_identity) {
+    std::copy_n(right, width, out);
+  } else {
+    std::transform(right, right + width, out,
+                   [&](std::uint8_t gray) { return mapping.left_of_right[gray]; });
+  }
 }
 
 }  // namespace mtstereo

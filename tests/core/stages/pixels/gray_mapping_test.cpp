@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "stages/refine/gray_mapping.hpp"
+#include "stages/pixels/gray_mapping.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "reference/refine/gray_mapping.hpp"
+#include "reference/pixels/gray_mapping.hpp"
+#include "support/compare.hpp"
 #include "support/plane.hpp"
 #include "support/random.hpp"
-#include "support/random_ratings.hpp"
+#include "support/random_maps.hpp"
 
 namespace mtstereo::gray_mapping_test {
 namespace {
@@ -18,7 +19,7 @@ constexpr int kShift = 7;
 
 /// Views that are shifted by kShift px, and differ by `response`, `noise` at most on both sides.
 GrayMapping mapping_of(const std::function<double(double)>& response, int noise,
-                       std::uint8_t confidence = 200, int width = 320) {
+                       int disparity = kShift * kDisparityOne, int width = 320) {
   GrayPlane left(width, 200), right(width, 200);
   test::Random random(1);
   for (int y = 0; y < 200; ++y) {
@@ -32,9 +33,16 @@ GrayMapping mapping_of(const std::function<double(double)>& response, int noise,
       right(partner, y) = static_cast<std::uint8_t>(std::clamp(std::lround(seen), 0L, 255L));
     }
   }
-  const Image<std::int32_t> map = image_of(DisparityPlane(width, 200, kShift * kDisparityOne));
-  const Image<std::uint8_t> confident = image_of(GrayPlane(width, 200, confidence));
-  return find_gray_mapping({left.view(), right.view(), 1, nullptr, 16}, map, confident);
+  const Image<std::int32_t> map = image_of(DisparityPlane(width, 200, disparity));
+  return find_gray_mapping(left.view(), right.view(), map);
+}
+
+GrayPlane mapped_by(const GrayPlane& right, const GrayMapping& mapping) {
+  GrayPlane out(right.width, right.height);
+  for (int y = 0; y < right.height; ++y) {
+    map_row(&right(0, y), right.width, mapping, &out(0, y));
+  }
+  return out;
 }
 
 void expect_identity(const GrayMapping& mapping) { EXPECT_TRUE(mapping.is_identity); }
@@ -72,19 +80,21 @@ TEST(GrayMapping, TakesOverSmallDifferencesInPart) {
 TEST(GrayMapping, EqualsReference) {
   int mapped = 0;
   for (int seed = 1; seed <= 60; ++seed) {
-    const test::RandomRating rated(40 + 5 * seed, 10 + seed, seed);
-    GrayPlane right = rated.right;
-    for (std::uint8_t& gray : right.pixels) {
-      gray = static_cast<std::uint8_t>(std::min(gray + 9 * (seed % 4), 255));
+    const int width = 40 + 5 * seed, height = 10 + seed;
+    const DisparityPlane map = test::patches(width, height, 2, seed);
+    GrayPlane left(width, height), right(width, height);
+    test::Random random(seed);
+    for (std::size_t i = 0; i < left.pixels.size(); ++i) {
+      const int gray = random.below(20) + static_cast<int>(i) % width;
+      left.pixels[i] = static_cast<std::uint8_t>(std::min(gray, 255));
+      right.pixels[i] = static_cast<std::uint8_t>(std::min(gray + 9 * (seed % 4), 255));
     }
-    RatedViews views = rated.views(1);
-    views.right = right.view();
-    const GrayMapping mapping =
-        find_gray_mapping(views, image_of(rated.in.map), image_of(rated.in.confidence));
+    const GrayMapping mapping = find_gray_mapping(left.view(), right.view(), image_of(map));
     mapped += !mapping.is_identity;
-    const reference::Grays expected = reference::map_grays(rated.left, right, rated.in);
+    const reference::Grays expected = reference::map_grays(left, right, map);
+    EXPECT_TRUE(same_image(reference::mapped(right, expected), mapped_by(right, mapping)));
     for (int gray = 0; gray < 256; ++gray) {
-      EXPECT_EQ(expected[gray], mapping.is_identity ? gray : mapping.left_of_right[gray])
+      EXPECT_EQ(expected[gray], mapping.of(static_cast<std::uint8_t>(gray)))
           << "gray value " << gray << ", seed " << seed;
     }
   }
@@ -94,8 +104,8 @@ TEST(GrayMapping, EqualsReference) {
 
 TEST(GrayMapping, IsNoneWithoutMatchedPixels) {
   const auto darker = [](double gray) { return 0.7 * gray; };
-  expect_identity(mapping_of(darker, 0, kMostInferred));
-  expect_identity(mapping_of(darker, 0, 200, 8));
+  expect_identity(mapping_of(darker, 0, kNoDisparity));
+  expect_identity(mapping_of(darker, 0, kShift * kDisparityOne, 8));
 }
 
 }  // namespace
