@@ -126,6 +126,7 @@ Status write_cloud(const std::vector<CloudPoint>& points, CloudFormat format,
   return guarded([&]() -> Status {
     NewFile file(path);
     if (Status status = file.open(); !status) return status;
+    // Only now: open() refuses pipes, on which reading would wait.
     if (is_foreign(path)) {
       return Error{ErrorCode::kSystem, path + " cannot be replaced: mtstereo did not write it; " +
                                            "move it away, or write elsewhere"};
