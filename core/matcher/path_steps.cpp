@@ -138,8 +138,8 @@ void support_guide(const StepContext& step, Pyramid& pyramid) {
 
 RatedViews rated_guide_views(const Views& views, const Pyramid& pyramid) {
   const PyramidLevel& level = pyramid.levels[0];
-  return {level.views[0].view(), level.views[1].view(), views.noise_level,
-          &pyramid.agreement,    kWindowTile / 2,       &pyramid.balance};
+  return {level.views[0].view(), level.views[1].view(), views.noise_level, &pyramid.agreement,
+          kWindowTile / 2,       &pyramid.balance,      views.clipped_from};
 }
 
 void rate_guide(const StepContext& step, const Views& views, Pyramid& pyramid) {

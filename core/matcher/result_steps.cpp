@@ -105,17 +105,12 @@ void align_enlarged_edges(const StepContext& step, const Views& views, ResultMap
 
 RatedViews rated_views(const Settings& settings, const Views& views, const Pyramid& pyramid,
                        const ResultMaps& result) {
-  return {views.plain[0],
-          views.plain[1],
-          views.rated_noise,
-          &pyramid.agreement,
-          kWindowTile,
-          &pyramid.balance,
-          {&pyramid.levels[0].disparity, &pyramid.confidence},
-          result.fine_detail,
-          result.grid_level,
-          result.block_side,
-          settings.half()};
+  return {views.plain[0],     views.plain[1],
+          views.rated_noise,  &pyramid.agreement,
+          kWindowTile,        &pyramid.balance,
+          views.clipped_from, {&pyramid.levels[0].disparity, &pyramid.confidence},
+          result.fine_detail, result.grid_level,
+          result.block_side,  settings.half()};
 }
 
 void calibrate_confidence(const StepContext& step, const Views& views, const Pyramid& pyramid,

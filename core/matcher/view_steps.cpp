@@ -122,6 +122,7 @@ void measure_contrast(const StepContext& step, Views& views) {
   const GrayHistogram grays = step.bands.sum_of_rows(
       GrayHistogram(), [&](int y0, int y1) { return count_grays(views.plain[0], y0, y1); });
   views.edge = edge_for_range(grays.range());
+  views.clipped_from = grays.clipped_from();
 }
 
 void filter_views(const StepContext& step, Views& views) {

@@ -34,7 +34,8 @@ struct Views {
   std::array<Image<std::uint8_t>, 2> extended;  ///< with more columns, for negative disparities
   std::array<Image<std::uint8_t>, 2> halves;
   std::array<NoiseBlocks, 2> noise;
-  BlockBorders borders;   ///< of the left view; none with nodes
+  BlockBorders borders;                ///< of the left view; none with nodes
+  int clipped_from = kNothingClipped;  ///< the left view's gray values that its camera clipped
   int edge = kUsualEdge;  ///< what counts as an edge in the left view [1 / kEdgeParts gray value]
   float input_noise = 0;  ///< of the noisier view of the caller, if the views are averaged
   float noise_level = 0;  ///< of the noisier view, before it was filtered; 0 without the filter

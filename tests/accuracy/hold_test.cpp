@@ -123,7 +123,7 @@ TEST(HoldOnRenderedScenes, ReducesTheFlickerOfModeDense) {
 
 // Feature: steady maps of still scenes, and before a moving camera
 TEST(FilterOnRenderedScenes, ReducesTheFlicker) {
-  expect_within(compare(rendered(), "semi-dense", 1, "filter"), {0.225, -0.4, 0.02, 0});
+  expect_within(compare(rendered(), "semi-dense", 1, "filter"), {0.225, -0.45, 0.02, 0});
   expect_within(compare(rendered(), "semi-dense", 5, "filter"), {0.2, 3.5, -0.2, -0.05});
 }
 

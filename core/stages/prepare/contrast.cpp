@@ -2,6 +2,7 @@
 #include "stages/prepare/contrast.hpp"
 
 #include <cstddef>
+#include <numeric>
 
 namespace mtstereo {
 
@@ -9,16 +10,28 @@ void GrayHistogram::add(const GrayHistogram& other) {
   for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
 }
 
+std::int64_t GrayHistogram::total() const {
+  return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+}
+
 int GrayHistogram::range() const {
-  std::int64_t all = 0;
-  for (const std::int64_t count : counts) all += count;
-  const std::int64_t rest = all / 20;
+  const std::int64_t rest = total() / 20;
   std::int64_t below = 0;
   int first = 0, last = 255;
   while (first < last && (below += counts[first]) <= rest) ++first;
   std::int64_t above = 0;
   while (last > first && (above += counts[last]) <= rest) --last;
   return last - first;
+}
+
+int GrayHistogram::clipped_from() const {
+  const std::int64_t all = total();
+  int brightest = 255;
+  std::int64_t reaching = counts[brightest];
+  while (brightest > kClippedReach && reaching * kRareShare < all) reaching += counts[--brightest];
+  const int least = brightest - kClippedReach;
+  for (int gray = least; gray < brightest; ++gray) reaching += counts[gray];
+  return all > 0 && reaching * kClippedShare >= all ? least : kNothingClipped;
 }
 
 GrayHistogram count_grays(GrayView view, int y0, int y1) {

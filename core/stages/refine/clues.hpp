@@ -7,6 +7,7 @@
 #include "base/buffer.hpp"
 #include "mtstereo/image.hpp"
 #include "stages/pixels/gray_balance.hpp"
+#include "stages/prepare/contrast.hpp"
 #include "stages/refine/block_grid.hpp"
 
 namespace mtstereo {
@@ -83,6 +84,7 @@ struct RatedViews {
   int agreement_tile;
   const GrayBalance* balance;  ///< of the views, or of views of half their size
 
+  int clipped_from = kNothingClipped;  ///< in the left view
   RatedGuide guide = {};
   float fine_detail = kUnknownDetail;  ///< FineDetail::share()
   int grid_level = 0;                  ///< BlockGrid::level()

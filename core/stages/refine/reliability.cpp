@@ -98,6 +98,12 @@ void find_mismatch_bins(const SummedRows& rows, int width, std::uint8_t* bins) {
   find_sum_bins(rows, kMismatchEnds, width, bins);
 }
 
+/// Replaces the bins of clipped pixels.
+void mark_clipped(const std::uint8_t* __restrict__ left, std::uint8_t clipped_from, int width,
+                  std::uint8_t* __restrict__ bins) {
+  for (int x = 0; x < width; ++x) bins[x] = left[x] >= clipped_from ? kClippedBin : bins[x];
+}
+
 void find_texture_bins(const SummedRows& rows, int width, std::uint8_t* bins) {
   find_sum_bins(rows, kTextureEnds, width, bins);
 }
@@ -197,6 +203,7 @@ namespace mtstereo {
 HWY_EXPORT(find_surfaces);
 HWY_EXPORT(add_rows);
 HWY_EXPORT(find_mismatch_bins);
+HWY_EXPORT(mark_clipped);
 HWY_EXPORT(find_texture_bins);
 HWY_EXPORT(share_out);
 HWY_EXPORT(find_partner_bins);
@@ -311,6 +318,11 @@ void find_row_bins(const RatedViews& views, const Image<std::int32_t>& map,
   find_share_bins(clues, y, width, scratch);
   HWY_DYNAMIC_DISPATCH(find_mismatch_bins)
   (rows_around(clues.mismatch, 1, y), width, scratch.bins[kMismatchClue].data());
+  if (views.clipped_from < kNothingClipped) {
+    HWY_DYNAMIC_DISPATCH(mark_clipped)
+    (views.left.row(y), static_cast<std::uint8_t>(views.clipped_from), width,
+     scratch.bins[kMismatchClue].data());
+  }
   HWY_DYNAMIC_DISPATCH(find_texture_bins)
   (rows_around(clues.texture, kTextureStep, y), width, scratch.bins[kTextureClue].data());
   find_surface_bins(clues, y, width, scratch);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 
 #include "stages/refine/clues.hpp"
 #include "stages/refine/reliability_table.hpp"
@@ -24,6 +25,11 @@ inline constexpr std::int16_t kMismatchEnds[] = {3,  5,  7,  9,  14, 18,  23,  2
                                                  36, 45, 54, 72, 90, 126, 180, 270};
 inline constexpr std::int16_t kTextureEnds[] = {1,  3,   8,   14,  20,  27,  40,  54,
                                                 75, 100, 135, 175, 230, 300, 400, 500};
+
+/// The bin of the clue about mismatch of clipped pixels: their gray values agree without saying
+/// anything.
+inline constexpr std::uint8_t kClippedBin = 17;
+static_assert(kClippedBin > std::size(kMismatchEnds) && kClippedBin < kClueBins);
 
 /// A column of the table: the first bytes of the entries in memory, then the second ones.
 struct EntryBytes {

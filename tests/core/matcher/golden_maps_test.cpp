@@ -44,14 +44,14 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0xc4c08f95f3d330e5},
-    {"default", "semi-dense", 0x4835f72dbc0b1c47},
-    {"default", "dense", 0xafe23661c553b973},
-    {"default", "full", 0xf7c3b4356c9f8b31},
-    {"fast", "sparse", 0x1c69179190b1b253},
-    {"fast", "semi-dense", 0x6cf8a970e7797d89},
-    {"fast", "dense", 0xc90374d375015cff},
-    {"fast", "full", 0x4d3ac0964f08ac1a},
+    {"default", "sparse", 0xe0957c121cff9865},
+    {"default", "semi-dense", 0x4fc109c5223b254f},
+    {"default", "dense", 0xa5cf07664216e372},
+    {"default", "full", 0x7cc348e49d4efb26},
+    {"fast", "sparse", 0x91f0fe2196c51870},
+    {"fast", "semi-dense", 0xd2458e39ad48b083},
+    {"fast", "dense", 0xf5a45e4274127e8f},
+    {"fast", "full", 0xf5879c4ad90eeec3},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

@@ -57,6 +57,7 @@ struct Frame {
   float detail = 1;                ///< the share of the finest octave, if it is measured
   double borders = 0;              ///< how clearly the left view shows blocks
   int edge = 32;                   ///< the change that halves large steps [1/8 gray value]
+  int clipped_from = 256;          ///< the gray values that the camera clipped, if measured
   int grid = 0;                    ///< the level of the block grid
   int block = 8;                   ///< side of its blocks [px]
   std::array<GrayPlane, 2> medians;
@@ -173,7 +174,10 @@ inline void measure_block_borders(Frame& f) {
   f.borders = border_visibility(f.plain[0], f.block);
 }
 
-inline void measure_contrast(Frame& f) { f.edge = std::clamp(gray_range(f.plain[0]) / 3, 4, 32); }
+inline void measure_contrast(Frame& f) {
+  f.edge = std::clamp(gray_range(f.plain[0]) / 3, 4, 32);
+  f.clipped_from = clipped_from(f.plain[0]);
+}
 
 inline PathMatchingOptions path_options(const Frame& f, int level) {
   PathMatchingOptions options = f.settings.path_matching(level);
@@ -291,7 +295,7 @@ inline void rate_guide(Frame& f) {
   std::array<GrayPlane, 2> halves;
   for (int side = 0; side < 2; ++side) halves[side] = halve(f.views[side]);
   const GrayPlane left = balanced(halves[0], f.balance, 16), right = mapped(halves[1], f.grays);
-  const RatedPair pair = {left, right, halves[0], f.noise, f.agreement, 8};
+  const RatedPair pair = {left, right, halves[0], f.noise, f.agreement, 8, f.clipped_from};
   const auto table = static_cast<int>(mtstereo::RatedMap::kGuide);
   const auto entries =
       table_of(kReliabilityTables[table], f.noise, mtstereo::kUnknownDetail, 0, true);
@@ -347,8 +351,8 @@ inline void doubt_edges(Frame& f) {
 inline void calibrate_confidence(Frame& f) {
   const ConfidentMap complete = {f.map, f.confidence};
   const GrayPlane left = balanced(f.plain[0], f.balance, 32), right = mapped(f.plain[1], f.grays);
-  const RatedPair pair = {left, right,    f.plain[0], f.rated_noise, f.agreement,
-                          16,   &f.guide, f.detail,   f.grid,        f.block};
+  const RatedPair pair = {left,           right,    f.plain[0], f.rated_noise, f.agreement, 16,
+                          f.clipped_from, &f.guide, f.detail,   f.grid,        f.block};
   const bool apart = !f.settings.keeps_inferred();
   const auto table = static_cast<int>(f.settings.rated_map());
   const auto entries =

@@ -62,25 +62,19 @@ struct RandomRating {
   reference::ConfidentMap guide{DisparityPlane(1, 1), GrayPlane(1, 1)};
   Image<std::int32_t> guide_map;  ///< the same
   Image<std::uint8_t> guide_confidence;
+  int clipped_from = kNothingClipped;
   float fine_detail = kUnknownDetail;
   int grid_level = 0;
   int block_side = 8;
 
   RatedViews views(float noise) const {
-    return {left.view(),
-            right.view(),
-            noise,
-            &tiles,
-            kTile,
-            &balance,
-            {&guide_map, &guide_confidence},
-            fine_detail,
-            grid_level,
-            block_side};
+    return {left.view(), right.view(), noise,        &tiles,
+            kTile,       &balance,     clipped_from, {&guide_map, &guide_confidence},
+            fine_detail, grid_level,   block_side};
   }
   reference::RatedPair pair(float noise) const {
-    return {balanced, mapped, left,        noise,      agreement,
-            kTile,    &guide, fine_detail, grid_level, block_side};
+    return {balanced,     mapped, left,        noise,      agreement, kTile,
+            clipped_from, &guide, fine_detail, grid_level, block_side};
   }
 
   /// Forgets the balance: equal gray values are alike.

@@ -20,6 +20,7 @@ struct RatedPair {
   float noise;
   const GrayPlane& agreement;  ///< of tiles
   int tile;                    ///< [px]
+  int clipped_from = 256;      ///< the gray values of the plain view that say nothing
   const ConfidentMap* guide = nullptr;
   float detail = 1;  ///< the share of the finest octave
   int grid = 0;      ///< the level of the block grid
@@ -39,6 +40,7 @@ class PixelClues {
       case kShareClue:
         return share();
       case kMismatchClue:
+        if (pair_.plain(x_, y_) >= pair_.clipped_from) return 17;
         return bin_of(mismatch(-1) + mismatch(0) + mismatch(1),
                       {3, 5, 7, 9, 14, 18, 23, 27, 36, 45, 54, 72, 90, 126, 180, 270});
       case kNearerClue:

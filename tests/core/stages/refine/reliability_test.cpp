@@ -53,6 +53,7 @@ TEST(Reliability, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
       rated.fine_detail = 0.003F * static_cast<float>(width);
       rated.grid_level = width % 5;
       rated.block_side = width % 2 == 0 ? 4 : 8;
+      rated.clipped_from = width % 3 == 0 ? 40 : kNothingClipped;
       expect_reference(rated, 0.13F * static_cast<float>(width));
     }
   });
