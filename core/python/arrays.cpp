@@ -12,8 +12,13 @@ namespace {
 
 std::string shape_text(const py::array& array) { return py::str(array.attr("shape")); }
 
-py::array array_of(const std::string& name, py::handle value) {
-  if (py::isinstance<py::array>(value)) return py::reinterpret_borrow<py::array>(value);
+/// `filler`: what masked pixels are replaced by, in the remedy.
+py::array array_of(const std::string& name, py::handle value, const std::string& filler = "0") {
+  if (py::isinstance<py::array>(value)) {
+    if (!py::hasattr(value, "filled")) return py::reinterpret_borrow<py::array>(value);
+    throw py::type_error(name + " is a masked array, whose mask would be ignored: pass " + name +
+                         ".filled(" + filler + ")");
+  }
   if (value.is_none()) {
     throw py::type_error(name +
                          " is None: cv2.imread() returns None for a file that it cannot read");
@@ -96,7 +101,7 @@ ArrayView<std::uint8_t> color_view(const char* name, py::handle value) {
 }
 
 ArrayView<float> disparity_view(const char* name, py::handle value) {
-  const py::array array = array_of(name, value);
+  const py::array array = array_of(name, value, "numpy.nan");
   if (array.dtype().kind() != 'f') {
     throw py::type_error(
         name + std::string(" has the dtype ") + std::string(py::str(array.dtype())) +

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mtstereo/geometry/depth.hpp"
@@ -32,16 +33,30 @@ DepthGeometry geometry_of(const Rectification& rectification) {
   return geometry;
 }
 
+/// The map of `disparity`, which must have the size of the views of `rectification` if it is known.
+ArrayView<float> map_of(py::handle disparity, const Rectification& rectification) {
+  ArrayView<float> map = disparity_view("disparity", disparity);
+  const auto [width, height] = std::pair(rectification.width, rectification.height);
+  if (width == 0 || (map.view.width == width && map.view.height == height)) return map;
+  const auto size = [](int x, int y) {
+    return std::to_string(x) + "x" + std::to_string(y) + " px";
+  };
+  throw py::value_error("disparity has " + size(map.view.width, map.view.height) +
+                        ", but the rectified views " + size(width, height) +
+                        ": depths would be wrong. Pass the map of these views, or set width and "
+                        "height of rectify()");
+}
+
 /// DepthGeometry::depth_of() for a disparity that no 16-bit value has.
 float depth_of(float disparity, double focal_times_baseline, double principal_offset) {
-  if (std::isnan(disparity)) return disparity;
+  if (!std::isfinite(disparity)) return std::numeric_limits<float>::quiet_NaN();  // as in .pfm
   const double moved = static_cast<double>(disparity) + principal_offset;
   if (!(moved > 0)) return std::numeric_limits<float>::infinity();
   return static_cast<float>(focal_times_baseline / moved);
 }
 
 py::array_t<float> depth(py::handle disparity, const Rectification& rectification) {
-  const ArrayView<float> map = disparity_view("disparity", disparity);
+  const ArrayView<float> map = map_of(disparity, rectification);
   const DepthGeometry geometry = geometry_of(rectification);
   require(check_geometry(geometry));
   py::array_t<float> depths = new_image<float>(map.view.height, map.view.width);
@@ -96,7 +111,7 @@ struct Cloud {
 
 Cloud cloud(py::handle disparity, const Rectification& rectification, py::handle color,
             py::handle confidence, double near, double far, int min_confidence, int step) {
-  const ArrayView<float> map = disparity_view("disparity", disparity);
+  const ArrayView<float> map = map_of(disparity, rectification);
   ArrayView<std::uint8_t> colors, confidences;
   CloudInput input;
   if (!color.is_none()) {
@@ -152,7 +167,7 @@ void write_points(const Cloud& cloud, const std::filesystem::path& path) {
 
 constexpr const char* kCloudText = R"(The points of a map: a Cloud.
 
-disparity: float32, (height, width) [px], NaN = unknown; rounded to 1/256 px, and coarser if it has 256 px or more.
+disparity: float32, (height, width) [px], NaN or inf = unknown; rounded to 1/256 px, and coarser if it has 256 px or more.
 color: the left view, uint8, (height, width) or (height, width, 3) as red, green, blue; image[:, :, ::-1] of OpenCV's.
 confidence: uint8, (height, width). near, far: the depths of the points [m]. min_confidence: 0 .. 255. step: every n-th
 pixel of every n-th row. TypeError, ValueError: an array has another type, shape or size, or a value is out of range.)";
@@ -164,8 +179,9 @@ void bind_depth(py::module_& module) {
       "depth", &depth, py::arg("disparity"), py::arg("rectification"),
       R"(Depths [m] of a map: float32, (height, width), NaN = unknown, inf = at or beyond infinity.
 
-disparity: float32, (height, width) [px], NaN = unknown. Depth = focal length * baseline / (disparity +
-principal_offset) of the Rectification. TypeError: no array of floats. ValueError: another shape, or no such cameras.)");
+disparity: float32, (height, width) [px], NaN or inf = unknown. Depth = focal length * baseline / (disparity +
+principal_offset) of the Rectification. TypeError: no array of floats. ValueError: another shape or size, or no such
+cameras.)");
   py::class_<Cloud>(module, "Cloud",
                     "Points in the axes of the rectified left camera: x to the right, y downwards, "
                     "z forward. The arrays "

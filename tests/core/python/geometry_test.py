@@ -123,11 +123,24 @@ class Depths(unittest.TestCase):
         self.assertEqual(depths[0, [0, 1, 3]].tolist(), [np.inf, np.inf, 50])
         self.assertTrue(np.isnan(depths[0, 2]))
 
+    def test_of_files_with_infinity_for_unknown_are_unknown(self):
+        disparity = np.array([[np.inf, -np.inf, 0.5]], np.float32)  # as in .pfm files
+        self.assertEqual(np.isnan(mtstereo.depth(disparity, CAMERAS)).tolist(), [[True, True, False]])
+        self.assertEqual(len(mtstereo.cloud(disparity, CAMERAS)), 1)
+
+    def test_of_maps_of_another_size_are_refused(self):
+        rectification = mtstereo.rectify(mtstereo.Calibration.read(OPENCV, 640, 480))
+        for use in (mtstereo.depth, mtstereo.cloud):
+            use(np.ones((480, 640), np.float32), rectification)
+            with self.assertRaisesRegex(ValueError, "disparity has 320x240 px, but the rectified views 640x480 px"):
+                use(np.ones((240, 320), np.float32), rectification)
+
     def test_of_wrong_maps_and_cameras_are_refused(self):
         disparity = map_of_disparities()
         for wrong, error, message in ((disparity.astype(np.uint16), TypeError, "dtype uint16: pass disparities in px"),
                                       (disparity[0], ValueError, r"shape \(64,\)"), (None, TypeError, "is None"),
-                                      ([[1.0]], TypeError, "numpy.asarray")):
+                                      ([[1.0]], TypeError, "numpy.asarray"),
+                                      (np.ma.masked_less(disparity, 9), TypeError, r"disparity.filled\(numpy.nan\)")):
             for use in (mtstereo.depth, mtstereo.cloud):
                 with self.assertRaisesRegex(error, message):
                     use(wrong, CAMERAS)

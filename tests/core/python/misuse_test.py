@@ -27,6 +27,7 @@ ARRAYS = [
     ("16 bits", lambda: LEFT.astype(np.uint16), TypeError, r"left has the dtype uint16, .*\(left >> 8\)"),
     ("swapped 16 bits", lambda: LEFT.astype(">u2"), TypeError, "left has the dtype >u2"),
     ("records", lambda: np.zeros((48, 64), [("r", "u1")]), TypeError, "left has the dtype"),
+    ("a mask", lambda: np.ma.masked_less(LEFT, 9), TypeError, r"left is a masked array.* left.filled\(0\)"),
     ("BGR", lambda: np.dstack([LEFT] * 3), ValueError, r"a color image: .* cv2.cvtColor\(left, cv2.COLOR_BGR2GRAY\)"),
     ("BGRA", lambda: np.dstack([LEFT] * 4), ValueError, r"cv2.cvtColor\(left, cv2.COLOR_BGRA2GRAY\)"),
     ("one channel", lambda: LEFT[:, :, None], ValueError, r"shape \(48, 64, 1\): pass one image"),
