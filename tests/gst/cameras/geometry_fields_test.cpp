@@ -18,10 +18,11 @@ constexpr int kWidth = 128;
 constexpr int kHeight = 64;
 constexpr int kShift = 6;
 
-std::string caps_with(double focal_length, double baseline = 0.12) {
+std::string caps_with(double focal_length, double baseline = 0.12,
+                      PixelRectangle region = {2, 3, 100, 50}) {
   const CapsPointer caps(gst_caps_from_string(raw_caps("GRAY8", kWidth, kHeight).c_str()));
   plugin::write_geometry(gst_caps_get_structure(caps.get(), 0),
-                         {focal_length, baseline, 1.5, 63, 31, PixelRectangle{2, 3, 100, 50}});
+                         {focal_length, baseline, 1.5, 63, 31, region});
   gchar* text = gst_caps_to_string(caps.get());
   std::string result = text;
   g_free(text);
@@ -76,6 +77,21 @@ TEST(GeometryFields, TwoRectificationsAreAWarning) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].text.find("not rectified as a pair"), std::string::npos);
   EXPECT_EQ(geometry_of(harness.output_caps().get()).value().focal_length, 700);
+}
+
+TEST(GeometryFields, OfViewsThatWereScaledOrCroppedSinceAreAWarning) {
+  for (const PixelRectangle region :
+       {PixelRectangle{0, 0, 256, 128}, PixelRectangle{0, 1, 129, 63}}) {
+    StereoHarness harness;
+    harness.caps(caps_with(700, 0.12, region));
+    harness.push_pair(pair(), 0);
+    ASSERT_TRUE(harness.pull());
+    harness.push_pair(pair(), kFrame);
+    ASSERT_TRUE(harness.pull());
+    const auto warnings = harness.warnings();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].text.find("scales or crops"), std::string::npos) << warnings[0].text;
+  }
 }
 
 /// A frame that is black outside of these columns in every row, with the meta that says so.
