@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "programs/calibrate/detection.hpp"
@@ -51,6 +52,8 @@ class Coverage {
  public:
   Coverage(BoardOptions board, cv::Size left, cv::Size right);
   void add(const CornerPair& pair);
+  /// Takes the left images for those of the right camera, and vice versa.
+  void swap_sides() { std::swap(left_, right_); }
 
   /// Which parts of the wanted ranges are reached: position in x and y, size, skew, cells.
   struct Progress {

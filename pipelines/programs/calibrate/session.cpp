@@ -4,6 +4,7 @@
 #include <array>
 #include <csignal>
 #include <ctime>
+#include <utility>
 
 #include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
@@ -156,12 +157,17 @@ int Session::finish(bool video) {
   out_ << "calibrating with " << views_.size() << " pairs of " << size_text(left_size_)
        << std::endl;
   const Calibrated calibrated = calibrate(options_.model, left_size_, right_size_, views_);
-  if (calibrated.swapped) folder_.swap_sides();
+  Coverage coverage = choice_->coverage();
+  if (calibrated.swapped) {
+    folder_.swap_sides();
+    coverage.swap_sides();
+    for (BoardView& view : views_) std::swap(view.left, view.right);
+  }
   std::optional<TimeOffset> offset;
   if (video && !options_.stills) {
     offset = estimate_offset(calibrated.solution.rig, track_, calibrated.swapped);
   }
-  const Quality quality = judge(calibrated, choice_->coverage(), offset);
+  const Quality quality = judge(calibrated, coverage, offset);
   Report report;
   report.options = &options_;
   report.calibrated = &calibrated;
@@ -172,8 +178,7 @@ int Session::finish(bool video) {
   const std::size_t shown = calibrated.solution.indices[calibrated.solution.indices.size() / 2];
   folder_.write_image("rectified.png", draw_rectified(calibrated, folder_.view(shown, true),
                                                       folder_.view(shown, false)));
-  folder_.write_image("coverage.png",
-                      draw_coverage(choice_->coverage(), views_, left_size_, right_size_));
+  folder_.write_image("coverage.png", draw_coverage(coverage, views_, left_size_, right_size_));
   folder_.write_image("residuals.png", draw_residuals(calibrated.solution));
   folder_.write_text("report.json", json_of(report));
   StereoCalibration file = calibration_of(calibrated.solution.rig);

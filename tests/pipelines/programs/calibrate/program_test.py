@@ -118,8 +118,12 @@ class Calibration(Program):
         self.assertIn("The left camera is stills/left", output)
         self.assertIn("warning: swapped-inputs", output)
         self.assertEqual((folder / "left/000.png").stat().st_size > 0, True)
-        _, again, _ = self.calibrate("--left", folder / "left", "--right", folder / "right")
+        _, again, right = self.calibrate("--left", folder / "left", "--right", folder / "right")
         self.assertFalse(again["swapped"])
+        texts = [[each["text"] for each in found["quality"]["warnings"] if each["name"] != "swapped-inputs"]
+                 for found in (report, again)]
+        self.assertEqual(*texts)
+        self.assertEqual((folder / "coverage.png").read_bytes(), (right / "coverage.png").read_bytes())
 
     def test_one_source_with_both_views(self):
         for option, place in (("--side-by-side", f"xpos={WIDTH}"), ("--top-bottom", f"ypos={HEIGHT}")):
