@@ -158,11 +158,14 @@ bool fits(const CameraCalibration& camera, int width, int height) {
   return std::abs(camera.height * scale - height) <= 1;
 }
 
-/// What a video has whose aspect ratio is half or twice that of the calibration, with remedies; ""
-/// for another one.
-std::string halved_views(const CameraCalibration& camera, int width, int height) {
+/// What a video has whose aspect ratio is half or twice that of the calibration, or its inverse,
+/// with remedies; "" for another one.
+std::string halved_or_turned(const CameraCalibration& camera, int width, int height) {
   const bool wide = fits(camera, width, 2 * height);
-  if (!wide && !fits(camera, 2 * width, height)) return "";
+  if (!wide && !fits(camera, 2 * width, height)) {
+    if (!fits(camera, height, width)) return "";
+    return ": it is turned by 90 degrees (turn it back, by videoflip), or";
+  }
   const std::string whole =
       wide ? image_size_text(width, 2 * height) : image_size_text(2 * width, height);
   return std::string(": it has both views ") + (wide ? "side by side" : "one above the other") +
@@ -171,11 +174,11 @@ std::string halved_views(const CameraCalibration& camera, int width, int height)
 }
 
 Error aspect_error(const CameraCalibration& camera, int width, int height) {
-  const std::string halved = halved_views(camera, width, height);
+  const std::string cause = halved_or_turned(camera, width, height);
   return {ErrorCode::kInvalidCalibration,
           "the calibration is for images of " + image_size_text(camera.width, camera.height) +
               ", the video has " + image_size_text(width, height) + ": the aspect ratios differ" +
-              (halved.empty() ? ", so" : halved) + " the camera crops; calibrate with this size"};
+              (cause.empty() ? ", so" : cause) + " the camera crops; calibrate with this size"};
 }
 
 void scale_rectification(Rectification& rectification, const CameraCalibration& old_left, int width,

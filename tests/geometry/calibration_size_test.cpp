@@ -83,6 +83,16 @@ TEST(Size, OfHalfOrTwiceTheAspectRatioMayBeThatOfBothViews) {
   }
 }
 
+TEST(Size, OfTheTurnedImageIsThatOfTurnedVideo) {
+  const Result<StereoCalibration> calibration = read_calibration(stored("camchain.yaml"), 0, 0);
+  ASSERT_TRUE(calibration.ok());
+  const CameraCalibration& left = calibration->left;
+  const auto turned = scale_calibration(*calibration, left.height, left.width);
+  ASSERT_FALSE(turned.ok());
+  EXPECT_THAT(turned.error().message,
+              AllOf(HasSubstr("turned by 90 degrees"), HasSubstr("videoflip"), HasSubstr("crops")));
+}
+
 TEST(ZedSize, OfBothViewsSideBySideIsNamed) {
   EXPECT_THAT(read_refused(stored("SN12345.conf"), 2560, 720),
               AllOf(HasSubstr("no calibration for video of 2560x720, which has both views side by"),
