@@ -35,7 +35,9 @@ std::vector<fs::path> list_images(const std::string& source) {
 }
 
 cv::Mat read(const fs::path& file) {
-  cv::Mat image = images::read(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+  constexpr int kAsStored =
+      cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
+  cv::Mat image = images::read(file, kAsStored);
   if (image.empty()) throw UserError(file.string() + ": is not an image that can be read");
   if (image.depth() == CV_16U) {
     // Cameras of 10 or 12 bits and thermal cameras use a part of them.
@@ -43,6 +45,9 @@ cv::Mat read(const fs::path& file) {
     cv::minMaxLoc(image, &least, &most);
     const double scale = 255 / std::max(most - least, 1.0);
     image.convertTo(image, CV_8U, scale, -scale * least);
+  }
+  if (image.depth() != CV_8U) {
+    throw UserError(file.string() + ": has no values of 8 or 16 bits: convert it to PNG");
   }
   return image;
 }

@@ -91,6 +91,38 @@ TEST(ImageSource, TakesTimesThatDifferByASecondNowAndThen) {
   EXPECT_NO_THROW(open_source(options));
 }
 
+TEST(ImageSource, RefusesImagesOfFloats) {
+  const test::TemporaryFolder folder;
+  SourceOptions options;
+  options.left = options.right = folder / "a.tiff";
+  cv::imwrite(options.left, cv::Mat(2, 3, CV_32FC1, cv::Scalar(0.5)));
+  ImagePair pair;
+  EXPECT_THAT(
+      [&] { open_source(options)->next(pair); },
+      ::testing::ThrowsMessage<UserError>(::testing::HasSubstr("a.tiff: has no values of 8")));
+}
+
+// The pixels of a phone that was turned between two photos are at the same places of its sensor.
+TEST(ImageSource, ReadsLaterImagesAsTheyAreStored) {
+  const test::TemporaryFolder folder;
+  cv::Mat image(8, 16, CV_8UC1, cv::Scalar(0));
+  image.colRange(8, 16).setTo(200);
+  std::vector<unsigned char> coded;
+  cv::imencode(".jpg", image, coded);
+  for (const char orientation : {'\1', '\3'}) {
+    std::ofstream(folder / (std::to_string(orientation) + ".jpg"))
+        << test::with_orientation({coded.begin(), coded.end()}, orientation);
+  }
+  SourceOptions options;
+  options.left = options.right = folder.path();
+  const auto source = open_source(options);
+  ImagePair first, second;
+  EXPECT_EQ(source->next(first), SourceState::kPair);
+  EXPECT_EQ(source->next(second), SourceState::kPair);
+  EXPECT_EQ(second.name, "3.jpg");
+  EXPECT_EQ(cv::norm(first.left, second.left, cv::NORM_INF), 0);
+}
+
 TEST(ImageSource, RefusesImagesThatProgramsTurn) {
   const test::TemporaryFolder folder;
   SourceOptions options;
