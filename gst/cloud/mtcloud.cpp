@@ -83,6 +83,19 @@ void refuse_stream(GstBaseSink* sink, const std::string& reason, const GstCaps* 
                     ("caps: %s", caps_text(caps).c_str()));
 }
 
+/// A warning if the principal point is that of a larger map.
+void check_region(GstBaseSink* sink, const StereoGeometry& geometry, const GstVideoInfo& info) {
+  const GeometryProperties properties = properties_of(sink).geometry;
+  const std::string sizes = larger_frame(geometry, info.width, info.height);
+  if (sizes.empty() || properties.principal_x || properties.principal_y) return;
+  GST_ELEMENT_WARNING(
+      sink, STREAM, FORMAT,
+      ("The geometry in the caps is that of a larger map: an element downstream of mtrectify "
+       "scales or crops it, but keeps the caps fields. The points are displaced: set the property "
+       "step instead of scaling; after cropping, set principal-x and principal-y."),
+      ("%s", sizes.c_str()));
+}
+
 gboolean set_caps(GstBaseSink* sink, GstCaps* caps) {
   CloudState& state = state_of(sink);
   const GstStructure* fields = gst_caps_get_structure(caps, 0);
@@ -97,6 +110,7 @@ gboolean set_caps(GstBaseSink* sink, GstCaps* caps) {
     return FALSE;
   }
   if (!gst_video_info_from_caps(&state.info, caps)) return FALSE;
+  check_region(sink, *geometry, state.info);
   state.caps.reset(gst_caps_ref(caps));
   state.caps_unit = *unit;
   state.refused = false;

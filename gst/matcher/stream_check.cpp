@@ -2,7 +2,6 @@
 #include "matcher/stream_check.hpp"
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -11,21 +10,17 @@
 namespace mtstereo::plugin {
 namespace {
 
-/// A warning if the view is smaller than the one whose geometry its caps state.
-void check_region(ElementState& state, Side side, const StereoGeometry& geometry) {
-  const GstVideoInfo& video = state.formats[side].video;
-  const PixelRectangle region = geometry.valid_region.value_or(PixelRectangle{});
-  const auto right = std::int64_t{region.x} + region.width;
-  const auto bottom = std::int64_t{region.y} + region.height;
-  if (right <= video.width && bottom <= video.height) return;
+/// A warning if the left view is smaller than the one whose geometry its caps state.
+void check_region(ElementState& state, const StereoGeometry& geometry) {
+  const GstVideoInfo& video = state.formats[Side::kLeft].video;
+  const std::string sizes = larger_frame(geometry, video.width, video.height);
+  if (sizes.empty()) return;
   state.messages.warning(
-      std::string("The geometry in the caps of ") + pad_name(side) +
-          " is that of a larger view: an element downstream of mtrectify scales or crops it, but "
-          "keeps the caps fields. Depths of a scaled view and points of a cropped one are wrong: "
-          "set width and height of both mtrectify instead of scaling; after cropping, set "
-          "principal-x and principal-y of mtcloud.",
-      "video of " + std::to_string(video.width) + "x" + std::to_string(video.height) +
-          ", valid-region up to " + std::to_string(right) + "x" + std::to_string(bottom));
+      "The geometry in the caps of sink_left is that of a larger view: an element downstream of "
+      "mtrectify scales or crops it, but keeps the caps fields. Depths of a scaled view and points "
+      "of a cropped one are wrong: set width and height of both mtrectify instead of scaling; "
+      "after cropping, set principal-x and principal-y of mtcloud.",
+      sizes);
 }
 
 /// Warnings if the caps of the streams state two rectifications, or one of other views: once for
@@ -39,7 +34,7 @@ void compare_geometry(ElementState& state) {
     if (fields) sides[index_of(side)] = read_geometry(fields.get());
   }
   // Both views have one size, and the map has the geometry of the left one.
-  if (sides[0]) check_region(state, Side::kLeft, *sides[0]);
+  if (sides[0]) check_region(state, *sides[0]);
   if (!sides[0] || !sides[1] || same_rectification(*sides[0], *sides[1])) return;
   const auto text = [](const StereoGeometry& geometry) {
     return "focal length " + std::to_string(geometry.focal_length) + " px, baseline " +

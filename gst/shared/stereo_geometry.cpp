@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace mtstereo::plugin {
 namespace {
@@ -67,6 +68,15 @@ bool same_rectification(const StereoGeometry& first, const StereoGeometry& secon
   return equal(first.focal_length, second.focal_length) &&
          std::abs(first.baseline - second.baseline) <= kRounding * first.baseline &&
          equal(first.principal_offset, second.principal_offset);
+}
+
+std::string larger_frame(const StereoGeometry& geometry, int width, int height) {
+  const PixelRectangle region = geometry.valid_region.value_or(PixelRectangle{});
+  const auto right = std::int64_t{region.x} + region.width;
+  const auto bottom = std::int64_t{region.y} + region.height;
+  if (right <= width && bottom <= height) return {};
+  return "video of " + std::to_string(width) + "x" + std::to_string(height) +
+         ", valid-region up to " + std::to_string(right) + "x" + std::to_string(bottom);
 }
 
 void write_geometry(GstStructure* fields, const StereoGeometry& geometry) {

@@ -4,6 +4,7 @@
 #include <gst/gst.h>
 
 #include <optional>
+#include <string>
 
 #include "mtstereo/geometry/calibration.hpp"
 #include "mtstereo/geometry/rectification.hpp"
@@ -49,6 +50,10 @@ std::optional<StereoGeometry> read_geometry(const GstStructure* fields);
 /// True if both views belong to one rectified pair: focal length, baseline and principal offset are
 /// equal but for rounding.
 bool same_rectification(const StereoGeometry& first, const StereoGeometry& second);
+
+/// If the valid region exceeds a frame of this size, so that the geometry is that of a larger one:
+/// both sizes as text. Otherwise "".
+std::string larger_frame(const StereoGeometry& geometry, int width, int height);
 
 /// Sets the fields.
 void write_geometry(GstStructure* fields, const StereoGeometry& geometry);

@@ -95,6 +95,19 @@ TEST(CloudErrors, NameTheWaysToSupplyAGeometry) {
   }
 }
 
+TEST(CloudErrors, AMapThatWasScaledOrCroppedIsAWarning) {
+  const std::string caps = raw_caps("GRAY16_LE", kCloudWidth, kCloudHeight) +
+                           ",focal-length=10.0,baseline=0.5,valid-region=(int)<0,0,12,4>";
+  for (const std::string properties : {"", " principal-x=2"}) {
+    const CloudFolder folder;
+    CloudHarness harness(location(folder) + properties, false);
+    gst_harness_set_src_caps_str(harness.maps(), caps.c_str());
+    harness.push_map(GstClockTime{0});
+    const std::string warning = text_of(next_message(harness.bus(), GST_MESSAGE_WARNING));
+    EXPECT_EQ(warning.find("scales or crops") != std::string::npos, properties.empty()) << warning;
+  }
+}
+
 TEST(CloudErrors, OfAStreamAreReportedOnce) {
   // The source tries to negotiate several times.
   const CloudFolder folder;
