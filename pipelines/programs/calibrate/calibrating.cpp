@@ -16,9 +16,13 @@ namespace {
 constexpr std::array kModels{Model::kPlumbBob, Model::kFisheye, Model::kRational};
 constexpr double kClearlyBetter = 0.95;  // of the error of a simpler model
 constexpr double kTrialPart = 0.9;
+constexpr double kOnePlace = 1e-4;  // distance of two lenses, which is impossible [m]
 
 void require_side_by_side(const Rig& rig) {
   const Eigen::Vector3d center = rig.right_from_left.inverse().translation;
+  if (center.norm() < kOnePlace) {
+    throw UserError("both sides show the images of one camera: give the sources of two cameras");
+  }
   if (std::abs(center.x()) >= center.norm() / 2) return;
   const bool vertical = std::abs(center.y()) > std::abs(center.z());
   throw UserError(std::string("the cameras are not side by side: one is ") +

@@ -187,6 +187,13 @@ TEST(Quality, ABoardInMetersInsteadOfMillimetersIsRefused) {
               ThrowsMessage<UserError>(HasSubstr("is the square size, in mm, right?")));
 }
 
+TEST(Quality, OneCameraOnBothSidesIsNamed) {
+  auto views = views_of(plumb_bob_rig(), 12, 0.1);
+  for (BoardView& view : views) view.right = view.left;
+  EXPECT_THAT([&] { judge_views(views); },
+              ThrowsMessage<UserError>(HasSubstr("both sides show the images of one camera")));
+}
+
 TEST(Quality, CamerasOutOfStepAreNamed) {
   const Quality late = judge(good().calibrated, good().coverage, TimeOffset{0.0121, 0.0004, 60});
   EXPECT_THAT(names_of(late), Contains("not-synchronized"));
