@@ -72,6 +72,16 @@ py::array_t<float> depth(py::handle disparity, const Rectification& rectificatio
   return depths;
 }
 
+/// Without a principal point, which depths do not need, all points would be displaced.
+void require_center(const Rectification& rectification, ImageView<const float> map) {
+  if (rectification.left_center_x != 0 || rectification.center_y != 0) return;
+  const auto middle = [](int length) { return py::str(py::float_((length - 1) / 2.0)); };
+  throw py::value_error(
+      "points need center_x and center_y of the Rectification: give those of the views, or the "
+      "middle if they are not known: center_x=" +
+      std::string(middle(map.width)) + ", center_y=" + std::string(middle(map.height)));
+}
+
 /// A map in the 16-bit values of the library.
 struct FixedMap {
   std::vector<std::uint16_t> values;
@@ -112,6 +122,7 @@ struct Cloud {
 Cloud cloud(py::handle disparity, const Rectification& rectification, py::handle color,
             py::handle confidence, double near, double far, int min_confidence, int step) {
   const ArrayView<float> map = map_of(disparity, rectification);
+  require_center(rectification, map.view);
   ArrayView<std::uint8_t> colors, confidences;
   CloudInput input;
   if (!color.is_none()) {

@@ -180,6 +180,12 @@ class Clouds(unittest.TestCase):
             points = mtstereo.cloud(disparity, CAMERAS, far=20).points
             self.assertTrue(np.allclose(points[:, 2], depth[known], rtol=4e-3))
 
+    def test_without_a_center_are_refused(self):
+        cameras = mtstereo.Rectification(focal_length=500, baseline=0.2)
+        self.assertTrue(np.isfinite(mtstereo.depth(map_of_disparities(), cameras)).any())
+        with self.assertRaisesRegex(ValueError, r"center_x and center_y .* center_x=31.5, center_y=19.5"):
+            mtstereo.cloud(map_of_disparities(), cameras)
+
     def test_stay_while_an_array_is_used(self):
         points = mtstereo.cloud(map_of_disparities(), CAMERAS).points
         self.assertTrue(np.isfinite(points).all())
