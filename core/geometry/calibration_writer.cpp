@@ -18,6 +18,9 @@
 namespace mtstereo {
 namespace {
 
+/// Stands in the beginning of each file: what has it may be replaced.
+constexpr const char* kWrittenBy = "written_by: mtstereo";
+
 /// A number that YAML 1.1 reads as one: "1.0e-05" and not "1e-05".
 std::string yaml_number(double value) {
   std::string text = formats::number_text(value);
@@ -106,7 +109,7 @@ std::string now() {
 
 Status write_file(const std::string& text, const std::string& path) {
   NewFile file(path);
-  if (Status status = file.open(); !status) return status;
+  if (Status status = file.open(kWrittenBy); !status) return status;
   if (Status status = file.write(text.data(), text.size()); !status) return status;
   if (Status status = file.sync(); !status) return status;
   return file.finish();
@@ -121,7 +124,7 @@ std::string calibration_text(const StereoCalibration& calibration, const std::st
   text.line(
       "# Calibration of two cameras. R and T: a point X of the left camera (1) is R X + T in");
   text.line("# the right camera (2). x points to the right, y downwards, z forward.");
-  text.entry("written_by", "mtstereo");
+  text.line(kWrittenBy);
   text.entry("date", "\"" + (calibration.date.empty() ? date : calibration.date) + "\"");
   text.entry("length_unit", "m");
   const CameraCalibration& left = calibration.left;

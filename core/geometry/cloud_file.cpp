@@ -94,17 +94,6 @@ std::uint8_t* put_pcd(std::uint8_t* to, const CloudPoint& point) {
   return to;
 }
 
-/// Whether a file is there that something else wrote.
-bool is_foreign(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::error_code unknown;
-  if (!file.is_open()) return std::filesystem::exists(path, unknown);
-  std::string begin(128, '\0');
-  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(file.gcount()));
-  return !begin.empty() && begin.find(kWritten) == std::string::npos;
-}
-
 Status write_points(NewFile& file, std::span<const CloudPoint> points, CloudFormat format) {
   const bool ply = format == CloudFormat::kPly;
   std::vector<std::uint8_t> block(kPointsPerBlock * (ply ? kPlyPoint : kPcdPoint));
@@ -125,12 +114,7 @@ Status write_cloud(const std::vector<CloudPoint>& points, CloudFormat format,
                    const std::string& path) noexcept {
   return guarded([&]() -> Status {
     NewFile file(path);
-    if (Status status = file.open(); !status) return status;
-    // Only now: open() refuses pipes, on which reading would wait.
-    if (is_foreign(path)) {
-      return Error{ErrorCode::kSystem, path + " cannot be replaced: mtstereo did not write it; " +
-                                           "move it away, or write elsewhere"};
-    }
+    if (Status status = file.open(kWritten); !status) return status;
     const std::string header =
         format == CloudFormat::kPly ? ply_header(points.size()) : pcd_header(points.size());
     if (Status status = file.write(header.data(), header.size()); !status) return status;

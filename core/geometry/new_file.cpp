@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -18,6 +19,17 @@ namespace {
 std::string name_aside(const std::string& path) {
   static std::atomic<unsigned> count{0};
   return path + "." + std::to_string(getpid()) + "-" + std::to_string(count++) + ".part";
+}
+
+/// Whether a regular file is not empty and does not begin like those with `mark`, or cannot be
+/// read.
+bool is_foreign(const std::string& path, std::string_view mark) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file.is_open()) return true;
+  std::string begin(256, '\0');
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(file.gcount()));
+  return !begin.empty() && begin.find(mark) == std::string::npos;
 }
 
 }  // namespace
@@ -34,10 +46,16 @@ Error NewFile::failure(const char* what, int number) const {
           path_ + " cannot be " + what + ": " + std::generic_category().message(number)};
 }
 
-Status NewFile::open() {
+Status NewFile::open(std::string_view mark) {
   struct stat existing = {};
-  if (stat(path_.c_str(), &existing) == 0 && !S_ISREG(existing.st_mode)) {
-    return Error{ErrorCode::kSystem, path_ + " cannot be replaced: it is not a regular file"};
+  if (stat(path_.c_str(), &existing) == 0) {
+    if (!S_ISREG(existing.st_mode)) {
+      return Error{ErrorCode::kSystem, path_ + " cannot be replaced: it is not a regular file"};
+    }
+    if (!mark.empty() && is_foreign(path_, mark)) {
+      return Error{ErrorCode::kSystem, path_ + " cannot be replaced: mtstereo did not write it; " +
+                                           "move it away, or write elsewhere"};
+    }
   }
   std::string aside = name_aside(path_);
   file_ = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

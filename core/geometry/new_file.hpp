@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "mtstereo/result.hpp"
 
@@ -20,8 +21,9 @@ class NewFile {
   NewFile& operator=(const NewFile&) = delete;
 
   /// Creates the file aside. Fails if `path` exists and is not a regular file, such as a folder or
-  /// a device.
-  Status open();
+  /// a device, or if something else wrote it: it is not empty, and its first 256 bytes lack `mark`.
+  /// Without a mark, the caller knows that it may be replaced.
+  Status open(std::string_view mark = {});
   /// Appends bytes.
   Status write(const void* data, std::size_t size);
   /// Waits until the bytes are on the disk, so that the complete file also survives a loss of

@@ -63,7 +63,7 @@ width, height: of the video [px], if known. ValueError: the file cannot be read 
 message names the file, the entry and what to do.)")
       .def("write", &write, py::arg("path"),
            "Writes it as YAML that read() and OpenCV's FileStorage read. OSError: the file cannot "
-           "be written.")
+           "be written, or is there and mtstereo did not write it.")
       .def(
           "scaled",
           [](const Calibration& calibration, int width, int height) {

@@ -10,6 +10,7 @@
 namespace mtstereo::test::calibration_writer_test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
@@ -142,10 +143,10 @@ TEST(WriteCalibration, IsPlainYaml) {
   EXPECT_EQ(file["image_size"][0].as<int>(), 640);
 }
 
-TEST(WriteCalibration, ReplacesAFileAndLeavesNothingElse) {
+TEST(WriteCalibration, ReplacesItsOwnFileAndLeavesNothingElse) {
   const CalibrationFolder folder;
-  const std::string path = folder.write("calibration.yml", "old");
-  ASSERT_TRUE(write_calibration(plumb_bob_pair(), path).ok());
+  const std::string path = folder.write("calibration.yml", "");
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(write_calibration(plumb_bob_pair(), path).ok());
   EXPECT_THAT(folder.names(), ElementsAre("calibration.yml"));
   StereoCalibration wrong = plumb_bob_pair();
   wrong.translation = {-120, 0, 0};
@@ -157,6 +158,17 @@ TEST(WriteCalibration, ReplacesAFileAndLeavesNothingElse) {
   EXPECT_FALSE(write_calibration(wrong, path).ok());
   EXPECT_THAT(folder.names(), ElementsAre("calibration.yml"));
   expect_equal(read_valid(path), plumb_bob_pair());
+}
+
+TEST(WriteCalibration, ReplacesNoFileOfOthers) {
+  const CalibrationFolder folder;
+  const std::string path = folder.write("stereo.yml", "%YAML:1.0\nM1: 0\n");
+  const Status status = write_calibration(plumb_bob_pair(), path);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().code, ErrorCode::kSystem);
+  EXPECT_THAT(status.error().message, AllOf(HasSubstr(path), HasSubstr("did not write it")));
+  EXPECT_THAT(folder.names(), ElementsAre("stereo.yml"));
+  EXPECT_EQ(read_text(path), "%YAML:1.0\nM1: 0\n");
 }
 
 TEST(WriteCalibration, NamesTheFileThatCannotBeWritten) {

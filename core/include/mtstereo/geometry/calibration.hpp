@@ -119,8 +119,9 @@ MTSTEREO_API Result<StereoCalibration> read_calibration(const std::string& path,
 
 /// Writes a calibration as YAML that OpenCV's FileStorage reads, and plain YAML readers too: K, D,
 /// R, T [m], the rectification if there is one, the units and the date. The file is written aside
-/// and renamed, so that an interrupted program leaves no half of it. Without a date, the
-/// calibration gets the current one. Fails with kInvalidCalibration or kSystem.
+/// and renamed, so that an interrupted program leaves no half of it; it replaces only files that
+/// this function wrote, and empty ones. Without a date, the calibration gets the current one. Fails
+/// with kInvalidCalibration or kSystem.
 MTSTEREO_API Status write_calibration(const StereoCalibration& calibration,
                                       const std::string& path) noexcept;
 
