@@ -94,7 +94,7 @@ def make_data_sets(folder):
 def prepare(folder):
     """Creates all files that the examples name."""
     make_clip(folder)
-    make_videos(folder)
+    make_videos(folder, 48)  # SRT can lose the first second while it connects
     (folder / "stereo.yaml").write_text(CALIBRATION)
     for side in ("left", "right"):
         shutil.copy(folder / f"{side}.mp4", folder / f"raw-{side}.mp4")

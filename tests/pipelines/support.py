@@ -134,9 +134,11 @@ def make_clip(folder, frames=FRAMES, size="160x120", scene="room"):
         (folder / side).symlink_to(folder / "clip" / side)
 
 
-def make_videos(folder):
-    """The clip as left, right and side-by-side video files, H.264 in .mp4 and .mkv."""
-    read = "multifilesrc location={}/%06d.png caps=image/png,framerate=24/1 ! pngdec ! videoconvert"
+def make_videos(folder, frames=None):
+    """The clip, repeated up to `frames`, as left, right and side-by-side video files, H.264 in .mp4 and .mkv."""
+    count = len(list((folder / "left").glob("*.png")))
+    read = (f"multifilesrc location={{}}/%06d.png stop-index={count - 1} loop=true num-buffers={frames or count} "
+            "caps=image/png,framerate=24/1 ! pngdec ! videoconvert")
     for side in ("left", "right"):
         require(launch(f"{read.format(side)} ! {H264} ! tee name=t t. ! queue ! mp4mux ! "
                        f"filesink location={side}.mp4 t. ! queue ! matroskamux ! "
