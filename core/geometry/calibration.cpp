@@ -163,8 +163,8 @@ bool fits(const CameraCalibration& camera, int width, int height) {
 std::string halved_or_turned(const CameraCalibration& camera, int width, int height) {
   const bool wide = fits(camera, width, 2 * height);
   if (!wide && !fits(camera, 2 * width, height)) {
-    if (!fits(camera, height, width)) return "";
-    return ": it is turned by 90 degrees (turn it back, by videoflip), or";
+    const bool turned = fits(camera, height, width);
+    return turned ? ": it is turned by 90 degrees (turn it back with videoflip), or" : "";
   }
   const std::string whole =
       wide ? image_size_text(width, 2 * height) : image_size_text(2 * width, height);

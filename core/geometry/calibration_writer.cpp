@@ -18,7 +18,7 @@
 namespace mtstereo {
 namespace {
 
-/// Stands in the beginning of each file: what has it may be replaced.
+/// In the first lines of each file: NewFile replaces only files with it.
 constexpr const char* kWrittenBy = "written_by: mtstereo";
 
 /// A number that YAML 1.1 reads as one: "1.0e-05" and not "1e-05".

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <bit>
-#include <filesystem>
-#include <fstream>
 #include <span>
 #include <string_view>
 
@@ -17,7 +15,7 @@ constexpr std::size_t kPointsPerBlock = 4096;
 constexpr std::size_t kPlyPoint = 3 * 4 + 4;  // [bytes]
 constexpr std::size_t kPcdPoint = 3 * 4 + 5;  // [bytes]
 
-/// Stands in the header of each file: what has it may be replaced.
+/// In the header of each file: NewFile replaces only files with it.
 constexpr std::string_view kWritten = "written by mtstereo";
 
 std::string ply_header(std::size_t points) {

@@ -58,8 +58,8 @@ TEST_P(RenderedScenes, KeepTheirAccuracy) {
   expect_kept(mean_of(evaluations), GetParam().limit);
 }
 
-// Measured: 0.124 px, 0.03 %, 55.2 %; 0.214, 0.86, 74.9; 0.337, 2.23, 89.4; 0.463, 3.97, 100; with
-// preset fast 0.168, 0.13, 52.3; 0.252, 1.03, 71.3; 0.411, 2.76, 90.3; 0.591, 4.96, 100 (full
+// Measured: 0.123 px, 0.03 %, 55.3 %; 0.214, 0.86, 74.7; 0.338, 2.24, 89.5; 0.463, 3.97, 100; with
+// preset fast 0.169, 0.13, 52.5; 0.253, 1.04, 71.3; 0.411, 2.76, 90.4; 0.591, 4.96, 100 (full
 // follows dense); with the paper's parameters 0.641, 6.06, 12.2 and 1.09, 10.9, 44.8.
 INSTANTIATE_TEST_SUITE_P(
     Modes, RenderedScenes,
@@ -112,8 +112,8 @@ void raise_gamma(cv::Mat& image) {
 // Feature: accuracy tests
 TEST_P(RealPairs, KeepTheirAccuracy) { expect_kept(evaluate_all(keep_as_it_is), GetParam().limit); }
 
-// Measured: 0.212 px, 0.04 %, 49.3 %; 0.290, 0.37, 73.5; 0.453, 1.18, 84.0; 1.016, 4.31, 100; with
-// preset fast 0.237, 0.08, 44.8; 0.329, 0.61, 69.8; 0.532, 1.84, 84.3; 1.145, 5.71, 100; with the
+// Measured: 0.212 px, 0.04 %, 49.3 %; 0.288, 0.36, 73.4; 0.451, 1.17, 84.1; 1.017, 4.32, 100; with
+// preset fast 0.238, 0.08, 44.8; 0.329, 0.62, 69.9; 0.534, 1.85, 84.4; 1.148, 5.71, 100; with the
 // paper's parameters 0.834, 4.18, 10.3 and 1.78, 10.5, 45.9.
 INSTANTIATE_TEST_SUITE_P(
     Modes, RealPairs,
@@ -165,7 +165,7 @@ TEST_P(Road, KeepsItsAccuracy) {
   FAIL() << "the pair is missing";
 }
 
-// Measured: 0.503 px, 0.10 %, 64.7 %.
+// Measured: 0.502 px, 0.10 %, 64.6 %.
 INSTANTIATE_TEST_SUITE_P(Modes, Road,
                          testing::Values(Gate{"SemiDense", "mode=semi-dense", {0.53, 0.2, 63.9}}),
                          gate_name);
